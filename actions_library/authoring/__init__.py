@@ -1,0 +1,1 @@
+"""How the shipped character and its clips are made: run once, never at play time."""

@@ -1,0 +1,1 @@
+"""Skeleton, clips, meshes and how they move."""

@@ -1,0 +1,72 @@
+"""Mesh and Character: what a viewer sees, and the skeleton that moves it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.character.skeleton import Skeleton
+from smd.errors import CharacterError
+from smd.geometry.arrays import FloatArray, IntArray, frozen_array
+
+MAX_INFLUENCES = 4
+"""Joints that may move one point: what game engines and most viewers allow."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mesh:
+    """A triangle mesh bound to a skeleton.
+
+    Attributes
+    ----------
+    name : unique in its character.
+    points_m : (p, 3) float64, in the bind pose.
+    triangles : (t, 3) int64, counter-clockwise seen from outside.
+    joint_indices : (p, 4) int64, the joints that move each point.
+    joint_weights : (p, 4) float64, not negative, sum 1; unused places have weight 0.
+    color_rgb : linear colour, each in [0, 1].
+    """
+
+    name: str
+    points_m: FloatArray
+    triangles: IntArray
+    joint_indices: IntArray
+    joint_weights: FloatArray
+    color_rgb: tuple[float, float, float] = (0.8, 0.8, 0.8)
+
+    def __post_init__(self) -> None:
+        points = frozen_array("points_m", self.points_m, (None, 3), CharacterError)
+        p = len(points)
+        triangles = frozen_array("triangles", self.triangles, (None, 3), CharacterError, np.int64)
+        if len(triangles) == 0 or triangles.min() < 0 or triangles.max() >= p:
+            raise CharacterError(f"mesh {self.name!r}: triangles: expected indices below {p}")
+        shape = (p, MAX_INFLUENCES)
+        indices = frozen_array("joint_indices", self.joint_indices, shape, CharacterError, np.int64)
+        weights = frozen_array("joint_weights", self.joint_weights, shape, CharacterError)
+        if weights.min() < 0 or np.abs(weights.sum(axis=1) - 1.0).max() > 1e-4:
+            raise CharacterError(f"mesh {self.name!r}: joint_weights: expected sums of 1")
+        object.__setattr__(self, "points_m", points)
+        object.__setattr__(self, "triangles", triangles)
+        object.__setattr__(self, "joint_indices", indices)
+        object.__setattr__(self, "joint_weights", weights)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Character:
+    """A skeleton and the meshes it moves; standing at the origin, facing +Z, when bound."""
+
+    name: str
+    skeleton: Skeleton
+    meshes: tuple[Mesh, ...]
+
+    def __post_init__(self) -> None:
+        for mesh in self.meshes:
+            if mesh.joint_indices.min() < 0 or mesh.joint_indices.max() >= len(self.skeleton):
+                raise CharacterError(f"mesh {mesh.name!r}: joint_indices beyond the skeleton")
+        object.__setattr__(self, "meshes", tuple(self.meshes))
+
+    @property
+    def height_m(self) -> float:
+        """Height of the bound figure, from the ground to its highest point."""
+        return float(max(mesh.points_m[:, 1].max() for mesh in self.meshes))

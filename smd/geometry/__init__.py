@@ -1,0 +1,1 @@
+"""Rotations, rigid transforms, frames and resampling: arrays in, arrays out, no project types."""

@@ -1,0 +1,1 @@
+"""From a doodle to spans of actions: tokens, patterns, automata, segmentation."""

@@ -1,0 +1,1 @@
+"""From a Score to a Performance: path, clips, timing, transitions, contacts."""
