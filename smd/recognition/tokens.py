@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+from itertools import product
+
+from smd.errors import PatternError
 
 Direction = tuple[int, int, int]
 """Signs along +X (left), +Y (up), +Z (front): one of 27; (0, 0, 0) is no movement."""
@@ -34,6 +38,31 @@ class Token:
             if axes:
                 parts.append(letter + "".join(axes))
         return "/".join(parts) or "STILL"
+
+    @classmethod
+    def parse(cls, name: str) -> Token:
+        """Return the token that is printed as ``name``.
+
+        Raises
+        ------
+        PatternError
+            If no token is printed so.
+        """
+        token = _tokens_by_name().get(name)
+        if token is None:
+            raise PatternError(
+                f"expected a token such as T_Z, R_N_Y, T_Y_Z/R_X or STILL, got {name[:40]!r}"
+            )
+        return token
+
+
+@cache
+def _tokens_by_name() -> dict[str, Token]:
+    """Return all 27 x 27 tokens by their names."""
+    signs = (-1, 0, 1)
+    directions = [(x, y, z) for x in signs for y in signs for z in signs]
+    tokens = [Token(t, r) for t, r in product(directions, directions)]
+    return {str(token): token for token in tokens}
 
 
 STILL = Token()
