@@ -1,0 +1,1 @@
+"""Figures that the documentation quotes; each runs alone: ``python -m benchmarks.<name>``."""

@@ -1,0 +1,5 @@
+"""``python -m smd.cli``: the command line where the ``smd`` script is not on the path."""
+
+from smd.cli import main
+
+main()

@@ -1,0 +1,39 @@
+"""``smd animate``: a Score, perhaps corrected by hand, acted out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from smd.cli import reading
+
+
+def animate(
+    score_file: Annotated[Path, typer.Argument(metavar="SCORE", help="A Score from `smd parse`.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="OUT.usda, OUT.usdc or OUT.usdz.")],
+    recording: Annotated[
+        Path | None,
+        typer.Option(help="The recording. Default: the one the Score names, beside the Score."),
+    ] = None,
+    library: reading.LibraryFolder = None,
+    fps: reading.FramesPerSecond = 24.0,
+) -> None:
+    """Act out a Score on its recording's path and timing."""
+    import smd
+    from exporters import require_known_suffix
+    from smd.errors import ScoreError
+    from smd.score import read_score
+
+    require_known_suffix(output)
+    score = read_score(score_file)
+    if recording is None:
+        if not score.recording:
+            raise ScoreError(f"{score_file}: recording: expected a path, or --recording FILE")
+        recording = score_file.parent / score.recording
+    options = reading.ReadingOptions.from_pairs(score.reading)
+    take = options.read(recording)
+    shelf = smd.load_library(library or (Path(score.library) if score.library else None))
+    smd.write(smd.animate(score, take, shelf, rate_hz=fps), output)
+    typer.echo(f"{output}: {reading.summary(take, score)}")

@@ -1,0 +1,56 @@
+"""``smd convert``: recordings in, animations out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from smd.cli import reading
+from smd.cli.batch import for_each, targets
+
+
+def convert(
+    recordings: reading.Recordings,
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", help="OUT.usda, .usdc or .usdz; or a folder for several."),
+    ],
+    suffix: Annotated[
+        str, typer.Option("--as", help="Format of the files written into a folder.")
+    ] = ".usdc",
+    library: reading.LibraryFolder = None,
+    figure_height: reading.FigureHeight = 0.175,
+    fps: reading.FramesPerSecond = 24.0,
+    device: reading.Device = None,
+    up: reading.Up = None,
+    front: reading.Front = None,
+    handedness: reading.Handedness = None,
+    unit: reading.Unit = None,
+    quaternion: reading.Quaternion = None,
+    mount: reading.Mount = None,
+) -> None:
+    """Convert recordings to animations: a file in, a file out; a folder in, a folder out."""
+    import smd
+    from exporters import require_known_suffix
+
+    files = list(reading.recording_files(recordings))
+    suffix = suffix if suffix.startswith(".") else f".{suffix}"
+    outputs = targets(recordings, files, output, suffix)
+    for path in outputs:
+        require_known_suffix(path)
+    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
+    shelf = smd.load_library(library)
+
+    def one(index: int, file: Path) -> None:
+        recording = options.read(file)
+        score = smd.parse(recording, shelf, figure_height_m=figure_height, devices=device)
+        score = replace(score, reading=options.pairs)
+        performance = smd.animate(score, recording, shelf, rate_hz=fps)
+        smd.write(performance, outputs[index])
+        said = f"{outputs[index]}: {reading.summary(recording, score)}"
+        typer.echo("\n".join([said, *(f"  {line}" for line in score.warnings)]))
+
+    for_each(files, one)

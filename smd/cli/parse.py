@@ -1,0 +1,86 @@
+"""``smd parse``: what was recognised, as a table, as a Score, as JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from smd.cli import reading
+from smd.cli.batch import for_each, targets
+
+if TYPE_CHECKING:
+    from smd.score import Score
+
+
+def parse(
+    recordings: reading.Recordings,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Write the Score here; a folder for several."),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the Score as JSON and nothing else.")
+    ] = False,
+    library: reading.LibraryFolder = None,
+    figure_height: reading.FigureHeight = 0.175,
+    device: reading.Device = None,
+    up: reading.Up = None,
+    front: reading.Front = None,
+    handedness: reading.Handedness = None,
+    unit: reading.Unit = None,
+    quaternion: reading.Quaternion = None,
+    mount: reading.Mount = None,
+) -> None:
+    """Recognise the actions and their Effort; print them, or write a Score to correct by hand."""
+    import smd
+    from smd.score import score_to_json, write_score
+
+    files = list(reading.recording_files(recordings))
+    outputs = targets(recordings, files, output, ".score.json") if output else []
+    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
+    shelf = smd.load_library(library)
+    scores: list[Score] = []
+
+    def one(index: int, file: Path) -> None:
+        recording = options.read(file)
+        score = smd.parse(recording, shelf, figure_height_m=figure_height, devices=device)
+        score = replace(score, reading=options.pairs)
+        scores.append(score)
+        if outputs:
+            write_score(reading.beside(score, outputs[index]), outputs[index])
+        if not as_json:
+            typer.echo(f"{file}: {reading.summary(recording, score)}")
+            typer.echo("\n".join(table(score)))
+            if outputs:
+                typer.echo(f"written: {outputs[index]}")
+
+    try:
+        for_each(files, one)
+    finally:
+        if as_json and len(files) == 1 and scores:
+            typer.echo(score_to_json(scores[0]), nl=False)
+        elif as_json and len(files) > 1:
+            typer.echo(json.dumps([json.loads(score_to_json(score)) for score in scores]))
+
+
+def table(score: Score) -> list[str]:
+    """Return a Score as lines of a table, one phrase a line."""
+    lines = []
+    for part in score.performers:
+        lines.append(f"  {part.device}" + ("" if part.phrases else ": nothing recognised"))
+        for phrase in part.phrases:
+            efforts = " ".join(
+                f"{axis} {value:+.2f}"
+                for axis in ("time", "weight", "space", "flow")
+                if (value := getattr(phrase.effort, axis)) is not None
+            )
+            lines.append(
+                f"    {phrase.start_s:8.2f} – {phrase.end_s:7.2f} s  {phrase.action:<16} "
+                f"confidence {phrase.confidence:.2f}  {efforts}".rstrip()
+            )
+    lines.extend(f"  {line}" for line in score.warnings)
+    return lines

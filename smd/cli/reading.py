@@ -1,0 +1,139 @@
+"""The options that say how a recording is to be read, shared by the commands that read one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from smd.doodle import Recording
+    from smd.score import Score
+
+Recordings = Annotated[
+    list[Path],
+    typer.Argument(metavar="RECORDING…", help="Recording files, or folders of them."),
+]
+Up = Annotated[
+    str | None, typer.Option(help="The world's up axis in the file: x, y, z, -x, -y or -z.")
+]
+Front = Annotated[
+    str | None, typer.Option(help="The prop's front axis in the file: x, y, z, -x, -y or -z.")
+]
+Handedness = Annotated[
+    str | None, typer.Option(help="right or left; Unity and Unreal write left-handed files.")
+]
+Unit = Annotated[str | None, typer.Option(help="Unit of length in the file: m, cm, mm, in or ft.")]
+Quaternion = Annotated[str | None, typer.Option(help="Order of quaternions: xyzw or wxyz.")]
+Mount = Annotated[
+    str | None,
+    typer.Option(
+        help="How the tracker sits on the prop, in degrees and metres, e.g. 'yaw=180,y=-0.05'."
+    ),
+]
+Device = Annotated[
+    list[str] | None,
+    typer.Option(help="Perform this device only; may be repeated. Default: all but headsets."),
+]
+LibraryFolder = Annotated[
+    Path | None, typer.Option("--library", help="A library folder. Default: the shipped humanoid.")
+]
+FigureHeight = Annotated[
+    float,
+    typer.Option(help="Height in metres of the figurine the prop stands for; it sets the scale."),
+]
+FramesPerSecond = Annotated[
+    float, typer.Option("--fps", help="Frames per second of the animation.", min=1.0, max=240.0)
+]
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingOptions:
+    """How the user said that recordings are to be read; None: as the format says."""
+
+    up: str | None = None
+    front: str | None = None
+    handedness: str | None = None
+    unit: str | None = None
+    quaternion: str | None = None
+    mount: str | None = None
+
+    @classmethod
+    def from_pairs(cls, pairs: Iterable[tuple[str, str]]) -> ReadingOptions:
+        """Return the options that a Score kept, or raise ScoreError naming the unknown one."""
+        from smd.errors import ScoreError
+
+        options = dict(pairs)
+        for name in options:
+            if name not in cls.__slots__:
+                raise ScoreError(
+                    f"reading: expected some of {', '.join(cls.__slots__)}, got {name!r}"
+                )
+        return cls(**options)
+
+    @property
+    def pairs(self) -> tuple[tuple[str, str], ...]:
+        """The options that were given, by name, as a Score keeps them."""
+        named = ((name, getattr(self, name)) for name in self.__slots__)
+        return tuple((name, value) for name, value in named if value is not None)
+
+    def read(self, path: Path) -> Recording:
+        """Read one recording file."""
+        from smd.formats import SourceFrame, read_recording
+
+        return read_recording(path, SourceFrame.from_options(**dict(self.pairs)))
+
+
+def recording_files(paths: Iterable[Path]) -> Iterator[Path]:
+    """Yield files as they are and the recordings inside folders, sorted by name.
+
+    Raises
+    ------
+    RecordingError
+        If a folder holds no recording.
+    """
+    from smd.errors import RecordingError
+    from smd.formats import SUFFIXES
+
+    for path in paths:
+        if not path.is_dir():
+            yield path
+            continue
+        inside = sorted(p for p in path.iterdir() if p.suffix.lower() in SUFFIXES and p.is_file())
+        if not inside:
+            raise RecordingError(
+                f"{path}: expected recordings ({' '.join(sorted(SUFFIXES))}) in this folder, "
+                "found none"
+            )
+        yield from inside
+
+
+def summary(recording: Recording, score: Score) -> str:
+    """Return in one line what was read and understood."""
+    start_s = min(doodle.time_s[0] for doodle in recording.doodles)
+    end_s = max(doodle.time_s[-1] for doodle in recording.doodles)
+    devices = ", ".join(part.device for part in score.performers)
+    parts = [f"{end_s - start_s:.1f} s, {devices}"]
+    parts.append(_count(sum(len(part.phrases) for part in score.performers), "phrase"))
+    if recording.dropouts:
+        split = sum(not dropout.bridged for dropout in recording.dropouts)
+        parts.append(f"{_count(len(recording.dropouts), 'dropout')} ({split} over 0.25 s)")
+    return ", ".join(parts)
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def beside(score: Score, score_file: Path) -> Score:
+    """Return the Score with its recording named as seen from the Score's own folder."""
+    where = Path(score.recording).resolve()
+    try:
+        relative = Path(os.path.relpath(where, score_file.resolve().parent))
+    except ValueError:  # another drive
+        relative = where
+    return replace(score, recording=relative.as_posix())
