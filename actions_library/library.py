@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from smd.errors import LibraryError
 from smd.recognition.pattern import Pattern
 
 if TYPE_CHECKING:
-    pass
+    from smd.character.character import Character
+    from smd.character.clip import Clip
 
 IDLE = "idle"
 """The clip that is played where nothing was recognised."""
@@ -32,3 +38,136 @@ class Action:
     travels: bool = False
     cyclic: bool = False
     description: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Library:
+    """Actions, and the character and clips that show them; a folder on disk.
+
+    The character and the clips are read when they are first asked for: to recognise an action
+    takes its pattern alone.
+
+    Attributes
+    ----------
+    name : of the library.
+    folder : where it was read from.
+    actions : unique names.
+    character_file : of the character, relative to the folder.
+    clip_files : of each action's clip, by the action's name.
+    """
+
+    name: str
+    folder: Path
+    actions: tuple[Action, ...]
+    character_file: str
+    clip_files: Mapping[str, str]
+
+    def __post_init__(self) -> None:
+        names = [action.name for action in self.actions]
+        for name in names:
+            if names.count(name) > 1:
+                raise LibraryError(f"{self.folder}: action {name!r} appears twice")
+            if name not in self.clip_files:
+                raise LibraryError(f"{self.folder}: action {name!r}: expected a clip, found none")
+        object.__setattr__(self, "actions", tuple(self.actions))
+        object.__setattr__(self, "clip_files", MappingProxyType(dict(self.clip_files)))
+
+    @cached_property
+    def character(self) -> Character:
+        """The character that the clips move.
+
+        Raises
+        ------
+        LibraryError
+            If its file is missing or holds no character.
+        """
+        from actions_library.storage import read_character_file
+
+        return read_character_file(self.folder / self.character_file)
+
+    @cached_property
+    def clips(self) -> Mapping[str, Clip]:
+        """The clip of each action, by the action's name.
+
+        Raises
+        ------
+        LibraryError
+            If a file is missing, or holds no clip of this character.
+        """
+        from actions_library.storage import read_clip_file
+
+        skeleton = self.character.skeleton
+        return MappingProxyType(
+            {
+                name: read_clip_file(self.folder / file, name, skeleton)
+                for name, file in self.clip_files.items()
+            }
+        )
+
+    def action(self, name: str) -> Action:
+        """Return the action of that name, or raise LibraryError naming those there are."""
+        for action in self.actions:
+            if action.name == name:
+                return action
+        known = ", ".join(action.name for action in self.actions)
+        raise LibraryError(f"library {self.name!r}: expected one of {known}; got {name!r}")
+
+    def clip(self, name: str) -> Clip:
+        """Return the clip of an action, or raise LibraryError naming those there are."""
+        return self.clips[self.action(name).name]
+
+
+def load_library(path: Path | str | None = None) -> Library:
+    """Read a library's actions and patterns; its character and clips follow when asked for.
+
+    Parameters
+    ----------
+    path
+        The folder; None for the humanoid that is shipped.
+
+    Raises
+    ------
+    LibraryError
+        If there is no such folder, or its ``library.json`` is not one of ours.
+    """
+    from actions_library.manifest import read_manifest
+
+    folder = Path(__file__).with_name("humanoid") if path is None else Path(path)
+    return read_manifest(folder)
+
+
+def write_library(
+    folder: Path | str,
+    *,
+    name: str,
+    character: Character,
+    clips: Mapping[str, Clip],
+    actions: tuple[Action, ...],
+) -> Library:
+    """Write a library's folder, in the place of one that is there, and return it.
+
+    Everything is written beside the folder and renamed into place.
+
+    Parameters
+    ----------
+    folder
+        Where; its parent must exist. What is there already must be a library, or be empty.
+    name
+        Of the library.
+    character
+        What the clips move.
+    clips
+        A clip for each action, by the action's name; all of the character's skeleton.
+    actions
+        With unique names.
+
+    Raises
+    ------
+    LibraryError
+        If an action has no clip, the folder holds something else, or it cannot be written.
+    """
+    from actions_library.storage import write_folder
+
+    return write_folder(
+        Path(folder), name=name, character=character, clips=clips, actions=tuple(actions)
+    )

@@ -1,0 +1,115 @@
+"""``library.json``: a library's table of contents, one action a line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from actions_library.library import Action, Library
+from smd.errors import LibraryError, PatternError
+from smd.recognition.pattern import Pattern
+
+MANIFEST = "library.json"
+SCHEMA, VERSION = "smd.library", 1
+
+
+def read_manifest(folder: Path) -> Library:
+    """Return the library that a folder's ``library.json`` describes.
+
+    Raises
+    ------
+    LibraryError
+        If the folder or the file is missing, or a key is absent or not of its type.
+    """
+    path = folder / MANIFEST
+    if not folder.is_dir():
+        raise LibraryError(f"{folder}: expected a library's folder, found none")
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise LibraryError(
+            f"{path}: expected a library's table of contents: {error.strerror}"
+        ) from error
+    except ValueError as error:
+        raise LibraryError(f"{path}: expected JSON: {error}") from error
+    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
+        raise LibraryError(f"{path}: schema: expected {SCHEMA!r}")
+    if document.get("version") != VERSION:
+        raise LibraryError(f"{path}: version: expected {VERSION}, got {document.get('version')!r}")
+    rows = _value(path, document, "actions", list)
+    actions, clip_files = [], {}
+    for index, row in enumerate(rows):
+        if not isinstance(row, dict):
+            raise LibraryError(f"{path}: actions[{index}]: expected an object, got {row!r}")
+        action = _action(path, row)
+        actions.append(action)
+        clip_files[action.name] = _file(path, row, "clip")
+    return Library(
+        name=_value(path, document, "name", str),
+        folder=folder,
+        actions=tuple(actions),
+        character_file=_file(path, document, "character"),
+        clip_files=clip_files,
+    )
+
+
+def manifest_text(library: Library) -> str:
+    """Return the text of ``library.json``."""
+    head = {
+        "schema": SCHEMA,
+        "version": VERSION,
+        "name": library.name,
+        "character": library.character_file,
+    }
+    rows = [
+        {
+            "name": action.name,
+            "pattern": None if action.pattern is None else str(action.pattern),
+            "clip": library.clip_files[action.name],
+            "travels": action.travels,
+            "cyclic": action.cyclic,
+            "description": action.description,
+        }
+        for action in library.actions
+    ]
+    lines = [f" {json.dumps(key)}: {json.dumps(value)}," for key, value in head.items()]
+    table = ",\n".join("  " + json.dumps(row, ensure_ascii=False) for row in rows)
+    return "\n".join(["{", *lines, ' "actions": [', table, " ]", "}", ""])
+
+
+def _action(path: Path, row: dict[str, Any]) -> Action:
+    name = _value(path, row, "name", str)
+    text = row.get("pattern")
+    if text is not None and not isinstance(text, str):
+        raise LibraryError(f"{path}: action {name!r}: pattern: expected text or null")
+    try:
+        pattern = None if text is None else Pattern.parse(text)
+    except PatternError as error:
+        raise LibraryError(f"{path}: action {name!r}: pattern: {error}") from error
+    return Action(
+        name=name,
+        pattern=pattern,
+        travels=_value(path, row, "travels", bool),
+        cyclic=_value(path, row, "cyclic", bool),
+        description=_value(path, row, "description", str),
+    )
+
+
+def _value(path: Path, row: dict[str, Any], key: str, kind: type) -> Any:
+    """Return ``row[key]`` if it is of the type ``kind``."""
+    where = f"action {row['name']!r}: {key}" if key != "name" and "clip" in row else key
+    if key not in row:
+        raise LibraryError(f"{path}: {where}: expected {kind.__name__}, found no such key")
+    if not isinstance(row[key], kind):
+        raise LibraryError(f"{path}: {where}: expected {kind.__name__}, got {row[key]!r}")
+    return row[key]
+
+
+def _file(path: Path, row: dict[str, Any], key: str) -> str:
+    """Return a file's name that stays inside the library's folder."""
+    name = str(_value(path, row, key, str))
+    parts = PurePosixPath(name).parts
+    if not parts or ".." in parts or "\\" in name or ":" in name or name.startswith("/"):
+        raise LibraryError(f"{path}: {key}: expected a file inside the folder, got {name!r}")
+    return name

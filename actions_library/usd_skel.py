@@ -1,0 +1,316 @@
+"""Skeletons, skinned meshes and joint animation in UsdSkel, both ways.
+
+This is one of the two doors (the other is `exporters.usd`) at which our conventions meet USD's:
+row vectors in matrices, and quaternions that print their real part first. In memory a
+``GfQuatf`` lies as x, y, z, w, so that an array of ours is an array of USD's without a copy of
+its own. Points, weights, rotations and translations are stored in single precision, rest and
+bind transforms in double.
+
+References
+----------
+.. [1] OpenUSD, "UsdSkel: Skeleton, Skinning and Animation Schemas",
+   https://openusd.org/release/api/usd_skel_page_front.html
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade, UsdSkel, Vt
+
+from smd.character.character import MAX_INFLUENCES, Character, Mesh
+from smd.character.skeleton import Skeleton
+from smd.errors import CharacterError
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import matrix_from_quaternion, normalized, quaternion_from_matrix
+
+SKELETON, ANIMATION, MATERIALS = "Skeleton", "Animation", "Materials"
+"""Names of what lies under a character's SkelRoot, beside its meshes."""
+
+_ROLES = "smd:roles"
+
+
+def unique_identifiers(names: Iterable[str]) -> list[str]:
+    """Return a valid USD prim name for each name, all different."""
+    taken: set[str] = set()
+    result = []
+    for name in names:
+        base = Tf.MakeValidIdentifier(name)
+        candidate, count = base, 1
+        while candidate in taken:
+            count += 1
+            candidate = f"{base}_{count}"
+        taken.add(candidate)
+        result.append(candidate)
+    return result
+
+
+def joint_paths(skeleton: Skeleton) -> list[str]:
+    """Return USD's name of each joint: the path from its root, as ``root/hips/spine``."""
+    paths: list[str] = []
+    for name, parent in zip(
+        unique_identifiers(skeleton.joints), skeleton.parents.tolist(), strict=True
+    ):
+        paths.append(name if parent < 0 else f"{paths[parent]}/{name}")
+    return paths
+
+
+def vertex_normals(points_m: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:
+    """Return unit normals ``(p, 3)``: of the faces around each point, weighted by their area."""
+    corners = points_m[triangles]
+    face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    summed = np.stack(
+        [
+            np.bincount(triangles.ravel(), np.repeat(face[:, axis], 3), minlength=len(points_m))
+            for axis in range(3)
+        ],
+        axis=-1,
+    )
+    return normalized(summed)
+
+
+def define_character(
+    stage: Usd.Stage,
+    path: str,
+    character: Character,
+    colors_rgb: Sequence[tuple[float, float, float]] | None = None,
+) -> UsdSkel.Root:
+    """Define a SkelRoot with the character's skeleton, meshes and materials.
+
+    Parameters
+    ----------
+    stage
+        Where; its edit target's layer takes the opinions.
+    path
+        Of the SkelRoot.
+    character
+        What.
+    colors_rgb
+        Linear colour of each mesh instead of its own.
+    """
+    root = UsdSkel.Root.Define(stage, path)
+    skeleton = _define_skeleton(stage, f"{path}/{SKELETON}", character.skeleton)
+    binding = UsdSkel.BindingAPI.Apply(root.GetPrim())
+    binding.CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+    colors = colors_rgb or [mesh.color_rgb for mesh in character.meshes]
+    reserved = [SKELETON, ANIMATION, MATERIALS]
+    names = unique_identifiers([*reserved, *(mesh.name for mesh in character.meshes)])[3:]
+    for name, mesh, color in zip(names, character.meshes, colors, strict=True):
+        material = define_material(stage, f"{path}/{MATERIALS}/{name}", color)
+        prim = _define_mesh(stage, f"{path}/{name}", mesh, color)
+        UsdSkel.BindingAPI(prim).CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+        UsdShade.MaterialBindingAPI.Apply(prim.GetPrim()).Bind(material)
+    return root
+
+
+def define_material(
+    stage: Usd.Stage, path: str, color_rgb: tuple[float, float, float], roughness: float = 0.6
+) -> UsdShade.Material:
+    """Define a UsdPreviewSurface of one colour."""
+    UsdGeom.Scope.Define(stage, Sdf.Path(path).GetParentPath())
+    material = UsdShade.Material.Define(stage, path)
+    shader = UsdShade.Shader.Define(stage, f"{path}/Surface")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color_rgb))
+    shader.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(roughness)
+    output = shader.CreateOutput("surface", Sdf.ValueTypeNames.Token)
+    material.CreateSurfaceOutput().ConnectToSource(output)
+    return material
+
+
+def define_animation(
+    stage: Usd.Stage,
+    path: str,
+    skeleton: Skeleton,
+    rotation_xyzw: ArrayLike,
+    translation_m: ArrayLike,
+) -> UsdSkel.Animation:
+    """Define a SkelAnimation with one sample a frame, frame i at time code i.
+
+    Parameters
+    ----------
+    stage, path
+        Where.
+    skeleton
+        Whose joints move.
+    rotation_xyzw, translation_m
+        Local poses ``(n, j, 4)``, unit, and ``(n, j, 3)``; stored in single precision.
+    """
+    animation = UsdSkel.Animation.Define(stage, path)
+    animation.CreateJointsAttr(joint_paths(skeleton))
+    # Readers want all three of rotations, translations and scales, or show no pose at all.
+    animation.CreateScalesAttr(Vt.Vec3hArray(len(skeleton), Gf.Vec3h(1.0)))
+    set_samples(animation.CreateRotationsAttr(), rotation_xyzw, Vt.QuatfArray)
+    set_samples(animation.CreateTranslationsAttr(), translation_m, Vt.Vec3fArray)
+    return animation
+
+
+def bind_animation(root: UsdSkel.Root, animation: UsdSkel.Animation) -> None:
+    """Let an animation move the character under ``root``."""
+    stage, path = root.GetPrim().GetStage(), animation.GetPath()
+    # On the root it is inherited by all below; on the skeleton it is where other readers look.
+    for prim in (root.GetPrim(), stage.OverridePrim(root.GetPath().AppendChild(SKELETON))):
+        UsdSkel.BindingAPI.Apply(prim).CreateAnimationSourceRel().SetTargets([path])
+
+
+def set_samples(attribute: Usd.Attribute, values: ArrayLike, kind: Any) -> None:
+    """Give an attribute one array a frame: ``values (n, k, components)`` at codes 0 … n - 1.
+
+    Samples go to the layer directly, inside one change block: through the stage each would pay
+    for resolution and notices.
+    """
+    single = np.ascontiguousarray(values, dtype=np.float32)
+    layer = attribute.GetStage().GetEditTarget().GetLayer()
+    path = attribute.GetPath()
+    with Sdf.ChangeBlock():
+        for frame, value in enumerate(single):
+            layer.SetTimeSample(path, float(frame), kind.FromNumpy(value))
+
+
+def read_character(stage: Usd.Stage, name: str) -> Character:
+    """Return the character under the stage's first SkelRoot, as `define_character` wrote it.
+
+    Raises
+    ------
+    CharacterError
+        If there is no SkelRoot, or its parts do not fit each other.
+    """
+    root = next((p for p in stage.Traverse() if p.IsA(UsdSkel.Root)), None)
+    prims = list(Usd.PrimRange(root)) if root else []
+    skeletons = [UsdSkel.Skeleton(p) for p in prims if p.IsA(UsdSkel.Skeleton)]
+    if not skeletons:
+        raise CharacterError("expected a SkelRoot with a Skeleton, found none")
+    meshes = tuple(_read_mesh(UsdGeom.Mesh(p)) for p in prims if p.IsA(UsdGeom.Mesh))
+    return Character(name=name, skeleton=_read_skeleton(skeletons[0]), meshes=meshes)
+
+
+def read_animation(layer: Sdf.Layer, path: str) -> tuple[list[str], FloatArray, FloatArray]:
+    """Return the joints' paths, rotations ``(n, j, 4)`` xyzw and translations ``(n, j, 3)``.
+
+    Raises
+    ------
+    CharacterError
+        If the layer has no such SkelAnimation, or its samples are not of one shape.
+    """
+    joints = layer.GetAttributeAtPath(f"{path}.joints")
+    if joints is None or joints.default is None:
+        raise CharacterError(f"expected a SkelAnimation with joints at {path}, found none")
+    names = list(joints.default)
+    rotation = _read_samples(layer, f"{path}.rotations", (len(names), 4))
+    translation = _read_samples(layer, f"{path}.translations", (len(names), 3))
+    return names, rotation, translation
+
+
+def _read_samples(layer: Sdf.Layer, path: str, shape: tuple[int, int]) -> FloatArray:
+    """Return an attribute's time samples in their order, ``(n, *shape)``."""
+    times = layer.ListTimeSamplesForPath(path)
+    values = [np.array(layer.QueryTimeSample(path, time)) for time in times]
+    if not values or any(value.shape != shape for value in values):
+        found = sorted({value.shape for value in values})
+        raise CharacterError(f"{path}: expected time samples of shape {shape}, got {found}")
+    return np.array(values, dtype=np.float64)
+
+
+def _define_skeleton(stage: Usd.Stage, path: str, skeleton: Skeleton) -> UsdSkel.Skeleton:
+    rest = np.tile(np.eye(4), (len(skeleton), 1, 1))
+    rest[:, :3, :3] = matrix_from_quaternion(skeleton.rest_rotation_xyzw)
+    rest[:, :3, 3] = skeleton.rest_translation_m
+    prim = UsdSkel.Skeleton.Define(stage, path)
+    prim.CreateJointsAttr(joint_paths(skeleton))
+    prim.CreateJointNamesAttr(list(skeleton.joints))
+    prim.CreateBindTransformsAttr(_row_matrices(skeleton.world_from_bind))
+    prim.CreateRestTransformsAttr(_row_matrices(rest))
+    prim.GetPrim().SetCustomDataByKey(_ROLES, Vt.StringArray(list(skeleton.roles)))
+    return prim
+
+
+def _row_matrices(matrices: FloatArray) -> Vt.Matrix4dArray:
+    """Return matrices that act on column vectors as USD's, which act on rows."""
+    transposed = np.ascontiguousarray(np.swapaxes(matrices, -1, -2))
+    return Vt.Matrix4dArray.FromNumpy(transposed)
+
+
+def _read_skeleton(prim: UsdSkel.Skeleton) -> Skeleton:
+    joints = prim.GetJointsAttr().Get()
+    roles = prim.GetPrim().GetCustomDataByKey(_ROLES)
+    names = prim.GetJointNamesAttr().Get()
+    bind, rest = (
+        np.swapaxes(np.array(attribute.Get(), dtype=np.float64).reshape(-1, 4, 4), -1, -2)
+        for attribute in (prim.GetBindTransformsAttr(), prim.GetRestTransformsAttr())
+    )
+    if not joints or roles is None or not len(joints) == len(bind) == len(rest):
+        raise CharacterError(
+            f"{prim.GetPath()}: expected joints with {_ROLES}, bind and rest transforms"
+        )
+    return Skeleton(
+        joints=tuple(names or (path.rsplit("/", 1)[-1] for path in joints)),
+        parents=np.array(UsdSkel.Topology(joints).GetParentIndices()),
+        rest_rotation_xyzw=quaternion_from_matrix(rest[:, :3, :3]),
+        rest_translation_m=rest[:, :3, 3],
+        world_from_bind=bind,
+        roles=tuple(roles),
+    )
+
+
+def _define_mesh(
+    stage: Usd.Stage, path: str, mesh: Mesh, color_rgb: tuple[float, float, float]
+) -> UsdGeom.Mesh:
+    prim = define_mesh(stage, path, mesh.points_m, mesh.triangles, color_rgb)
+    binding = UsdSkel.BindingAPI.Apply(prim.GetPrim())
+    indices = binding.CreateJointIndicesPrimvar(constant=False, elementSize=MAX_INFLUENCES)
+    weights = binding.CreateJointWeightsPrimvar(constant=False, elementSize=MAX_INFLUENCES)
+    indices.Set(Vt.IntArray.FromNumpy(mesh.joint_indices.ravel().astype(np.int32)))
+    weights.Set(Vt.FloatArray.FromNumpy(mesh.joint_weights.ravel().astype(np.float32)))
+    binding.CreateGeomBindTransformAttr(Gf.Matrix4d(1.0))
+    return prim
+
+
+def define_mesh(
+    stage: Usd.Stage,
+    path: str,
+    points_m: FloatArray,
+    triangles: NDArray[np.int64],
+    color_rgb: tuple[float, float, float],
+) -> UsdGeom.Mesh:
+    """Define a triangle mesh of one colour, smooth by its normals, with its extent."""
+    prim = UsdGeom.Mesh.Define(stage, path)
+    points = points_m.astype(np.float32)
+    # No subdivision: the triangles are the surface, and the normals make it smooth.
+    prim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
+    prim.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points))
+    prim.CreateFaceVertexCountsAttr(Vt.IntArray(len(triangles), 3))
+    prim.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(triangles.ravel().astype(np.int32)))
+    normals = vertex_normals(points_m, triangles).astype(np.float32)
+    prim.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals))
+    prim.SetNormalsInterpolation(UsdGeom.Tokens.vertex)
+    prim.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(np.stack([points.min(0), points.max(0)])))
+    prim.CreateDisplayColorPrimvar(UsdGeom.Tokens.constant).Set([Gf.Vec3f(*color_rgb)])
+    return prim
+
+
+def _read_mesh(prim: UsdGeom.Mesh) -> Mesh:
+    binding = UsdSkel.BindingAPI(prim)
+    values = [
+        prim.GetPointsAttr().Get(),
+        prim.GetFaceVertexIndicesAttr().Get(),
+        binding.GetJointIndicesPrimvar().Get(),
+        binding.GetJointWeightsPrimvar().Get(),
+    ]
+    if any(value is None for value in values):
+        raise CharacterError(f"{prim.GetPath()}: expected points, faces, joint indices and weights")
+    points, faces, indices, weights = (np.array(value) for value in values)
+    color = prim.GetDisplayColorPrimvar().Get() or [Gf.Vec3f(0.8)]
+    try:
+        return Mesh(
+            name=prim.GetPrim().GetName(),
+            points_m=points,
+            triangles=faces.reshape(-1, 3),
+            joint_indices=indices.reshape(-1, MAX_INFLUENCES),
+            joint_weights=weights.reshape(-1, MAX_INFLUENCES),
+            color_rgb=(float(color[0][0]), float(color[0][1]), float(color[0][2])),
+        )
+    except ValueError as error:
+        raise CharacterError(f"{prim.GetPath()}: expected triangles of 4 influences") from error
