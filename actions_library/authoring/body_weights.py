@@ -1,0 +1,149 @@
+"""Skin weights of the shipped humanoid: which joints move a point, and how much.
+
+Weights pass from joint to joint in soft steps across planes through the joints, first for the
+left half, then mirrored. A limb's share follows from which part's surface a point lies on, so that
+a hand hanging at the thigh never pulls it along; a few rounds of averaging over the mesh then take
+out what is left of the steps' corners.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from actions_library.authoring.body_shape import DOWN_45, BodyFields, thumb_distance
+from actions_library.authoring.body_surface import adjacency
+from smd.character.character import MAX_INFLUENCES
+from smd.character.skeleton import Skeleton
+from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.rotations import normalized
+
+SMOOTHING_ROUNDS = 6
+"""Rounds of averaging with the neighbours."""
+
+
+def body_weights(
+    points: FloatArray,
+    triangles: IntArray,
+    mirror: NDArray[np.int64],
+    fields: BodyFields,
+    skeleton: Skeleton,
+) -> tuple[IntArray, FloatArray]:
+    """Return joint indices and weights, both ``(p, 4)``, exactly symmetric.
+
+    Parameters
+    ----------
+    points, triangles, mirror
+        The closed body and each point's image in the plane x = 0.
+    fields
+        Tell arm and leg from trunk.
+    skeleton
+        Its joints, by name.
+    """
+    left = points * np.where(points[:, :1] < 0, [-1.0, 1.0, 1.0], 1.0)
+    shares = _left_shares(left, fields, skeleton)
+    dense = np.zeros((len(points), len(skeleton)))
+    other = points[:, 0] < 0
+    for joint, share in shares.items():
+        twin = joint.replace("left_", "right_")
+        dense[~other, skeleton.index(joint)] += share[~other]
+        dense[other, skeleton.index(twin)] += share[other]
+    mean = adjacency(triangles, len(points))
+    for _ in range(SMOOTHING_ROUNDS):
+        dense = 0.5 * dense + 0.5 * (mean @ dense)
+    twins = [skeleton.index(_twin(joint)) for joint in skeleton.joints]
+    dense = 0.5 * (dense + dense[mirror][:, twins])
+    return strongest(dense)
+
+
+def strongest(dense: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return the four largest weights of each row, normalised, and their places."""
+    indices = np.argsort(-dense, axis=1, kind="stable")[:, :MAX_INFLUENCES]
+    weights = np.take_along_axis(dense, indices, axis=1)
+    weights = np.where(weights < 1e-3, 0.0, weights)
+    return indices, weights / weights.sum(axis=1, keepdims=True)
+
+
+def _twin(joint: str) -> str:
+    """Return the joint of the other side, or the joint itself."""
+    if joint.startswith("left_"):
+        return "right_" + joint.removeprefix("left_")
+    if joint.startswith("right_"):
+        return "left_" + joint.removeprefix("right_")
+    return joint
+
+
+def _step(value: FloatArray, low: float, high: float) -> FloatArray:
+    """Return 0 below ``low``, 1 above ``high`` and a smooth step of three derivatives between."""
+    t = np.clip((value - low) / (high - low), 0.0, 1.0)
+    return t**3 * (t * (6.0 * t - 15.0) + 10.0)
+
+
+def _left_shares(
+    points: FloatArray, fields: BodyFields, skeleton: Skeleton
+) -> dict[str, FloatArray]:
+    """Return the weights by joint for points with x from 0 up; they sum to 1."""
+    places = {j: skeleton.world_from_bind[i, :3, 3] for i, j in enumerate(skeleton.joints)}
+
+    def beyond(joint: str, direction: ArrayLike, half_m: float, shift_m: float = 0.0) -> FloatArray:
+        """Return how far points lie beyond a plane through a joint, as a soft step."""
+        along = (points - places[joint]) @ normalized(direction) - shift_m
+        return _step(along, -half_m, half_m)
+
+    x, y = points[:, 0], points[:, 1]
+    trunk = fields.trunk.sample(points)
+    arm = fields.arm.sample(points)
+    on_arm = _step(trunk - arm, -0.030, 0.045) * (1.0 - _step(arm, 0.02, 0.05))
+    on_leg = beyond("left_upper_leg", (0.45, -1.0, 0.0), 0.075, 0.005) * _step(x, 0.0, 0.06)
+    on_leg = on_leg * _step(-y, -1.0, -0.97) * (1.0 - on_arm)
+    on_leg = np.where(y < 0.78, 1.0 - on_arm, on_leg)
+
+    up = (0.0, 1.0, 0.0)
+    spine = _chain(
+        ("hips", "spine", "chest", "upper_chest"),
+        [beyond("spine", up, 0.065), beyond("chest", up, 0.07), beyond("upper_chest", up, 0.07)],
+    )
+    neck = beyond("neck", (0.0, 1.0, 0.4), 0.045) * (1.0 - _step(x, 0.06, 0.12))
+    head = beyond("head", (0.0, 1.0, 0.9), 0.03)
+    spine |= _chain(("upper_chest", "neck", "head"), [neck, head], spine["upper_chest"])
+    collar = _step(x, 0.03, 0.15) * _step(y, 1.27, 1.40) * (1.0 - neck)
+    shares = {joint: share * (1.0 - collar) for joint, share in spine.items()}
+    shares["left_shoulder"] = collar
+
+    hand_way = places["left_hand"] - places["left_lower_arm"]
+    thumb = _step(-thumb_distance(points), -0.012, 0.0) * beyond(
+        "left_thumb", (0.7, -0.7, 0.35), 0.012
+    )
+    arm_shares = _chain(
+        ("left_upper_arm", "left_lower_arm", "left_hand", "left_fingers"),
+        [
+            beyond("left_lower_arm", DOWN_45, 0.045),
+            beyond("left_hand", hand_way, 0.032),
+            beyond("left_fingers", DOWN_45, 0.014) * (1.0 - thumb),
+        ],
+    )
+    arm_shares["left_thumb"] = arm_shares["left_hand"] * thumb
+    arm_shares["left_hand"] = arm_shares["left_hand"] * (1.0 - thumb)
+    leg_shares = _chain(
+        ("left_upper_leg", "left_lower_leg", "left_foot", "left_toes"),
+        [
+            beyond("left_lower_leg", (0.0, -1.0, 0.0), 0.055),
+            beyond("left_foot", (0.0, -1.0, 0.15), 0.03),
+            beyond("left_toes", (0.0, -0.1, 1.0), 0.022),
+        ],
+    )
+    shares = {joint: share * (1.0 - on_arm) * (1.0 - on_leg) for joint, share in shares.items()}
+    shares |= {joint: share * on_arm for joint, share in arm_shares.items()}
+    return shares | {joint: share * on_leg for joint, share in leg_shares.items()}
+
+
+def _chain(
+    joints: tuple[str, ...], beyond: list[FloatArray], whole: FloatArray | None = None
+) -> dict[str, FloatArray]:
+    """Return what each joint of a chain keeps when each passes on a share to the next."""
+    left = np.ones_like(beyond[0]) if whole is None else whole
+    shares = {}
+    for joint, share in zip(joints[:-1], beyond, strict=True):
+        shares[joint] = left * (1.0 - share)
+        left = left * share
+    return shares | {joints[-1]: left}
