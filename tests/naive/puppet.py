@@ -5,9 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from actions_library.authoring.humanoid import humanoid_skeleton
+from laban import Effort
 from smd.character.character import Character, Mesh
 from smd.character.clip import Clip
+from smd.doodle import Doodle
 from smd.geometry.rotations import quaternion_about
+from smd.score import Part, Phrase, Score
+from smd.transfer.performance import Actor, Performance
 
 SIDES = 6
 
@@ -77,3 +81,46 @@ def waving_clip(name: str = "wave", frames: int = 30, *, cyclic: bool = False) -
         contacts=np.column_stack([np.arange(frames) % 2 == 0, np.ones(frames, bool)]),
         cyclic=cyclic,
     )
+
+
+def performance(seconds: float, rate_hz: float) -> Performance:
+    """Return two puppets that wave side by side from 10 s on, the right one's prop lost midway."""
+    frames = round(seconds * rate_hz) + 1
+    rotation, translation = wave(frames, rate_hz)
+    character, parts, actors = puppet(), [], []
+    for index, device in enumerate(("left hand", "right-hand")):
+        moved = translation.copy()
+        moved[:, 0, 0] += 1.5 * index
+        phrases = (
+            Phrase("walk", 10.0 + 0.1 * seconds, 10.0 + 0.45 * seconds, Effort(0.5, -0.25)),
+            Phrase("punch", 10.0 + 0.6 * seconds, 10.0 + 0.9 * seconds, Effort(1.0, 1.0), 0.75),
+        )
+        parts.append(Part(device, phrases))
+        doodle = loop(seconds, centre=(1.5 * index, 1.0, 0.0), device=device)
+        doodles = (doodle,) if index == 0 else split(doodle, 10.0 + 0.5 * seconds, 0.2 * seconds)
+        actors.append(Actor(device, character, rotation, moved, doodles, parts[-1]))
+    return Performance(rate_hz, 10.0, tuple(actors), Score(tuple(parts), recording="made up"))
+
+
+def loop(seconds: float, centre: tuple[float, float, float], device: str) -> Doodle:
+    """Return a rising circle drawn from 10 s on at 90 Hz, the prop facing along it."""
+    time_s = np.arange(0.0, seconds + 1e-9, 1.0 / 90.0)
+    angle = 2.0 * np.pi * time_s / seconds
+    circle = np.column_stack([np.sin(angle), 0.1 * angle, np.cos(angle)])
+    return Doodle(
+        time_s=10.0 + time_s,
+        position_m=circle + centre,
+        orientation_xyzw=quaternion_about([0.0, 1.0, 0.0], angle + 0.5 * np.pi),
+        device=device,
+    )
+
+
+def split(doodle: Doodle, middle_s: float, gap_s: float) -> tuple[Doodle, Doodle]:
+    """Return a doodle without its samples inside a gap."""
+    before = doodle.time_s <= middle_s - 0.5 * gap_s
+    after = doodle.time_s >= middle_s + 0.5 * gap_s
+    first, second = (
+        Doodle(doodle.time_s[k], doodle.position_m[k], doodle.orientation_xyzw[k], doodle.device)
+        for k in (before, after)
+    )
+    return first, second

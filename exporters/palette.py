@@ -1,0 +1,58 @@
+"""Colours of phrases and performers: the same in the animation and in every picture of it."""
+
+from __future__ import annotations
+
+import colorsys
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from smd.geometry.arrays import FloatArray
+from smd.score import Score
+
+RGB = tuple[float, float, float]
+
+IDLE_RGB: RGB = (0.62, 0.64, 0.67)
+"""sRGB of movement that is no phrase's."""
+
+# Medium tones of one lightness, told apart on white paper and beside each other.
+_PHRASES = [
+    *("#1f77b4", "#e8710a", "#2a9d55", "#c8385a", "#8456b8", "#00939b"),
+    *("#b8860b", "#d1589b", "#5b7f2e", "#a0522d", "#4b5fc8", "#6d7681"),
+]
+
+
+def action_colors(score: Score) -> dict[str, RGB]:
+    """Return each action's sRGB colour; which one depends on the Score's set of actions alone."""
+    actions = sorted({phrase.action for part in score.performers for phrase in part.phrases})
+    return {name: _rgb(_PHRASES[i % len(_PHRASES)]) for i, name in enumerate(actions)}
+
+
+def performer_colors(own: Iterable[RGB], index: int) -> list[RGB]:
+    """Return a character's colours for its ``index``-th performer; the first keeps its own.
+
+    The hue goes round by the golden ratio, so that any number of performers are told apart.
+    """
+    turned = []
+    for rgb in own:
+        hue, saturation, value = colorsys.rgb_to_hsv(*rgb)
+        turned.append(colorsys.hsv_to_rgb((hue + 0.618034 * index) % 1.0, saturation, value))
+    return turned
+
+
+def linear_from_srgb(rgb: ArrayLike) -> FloatArray:
+    """Return linear colours, as USD wants them, of sRGB ones (IEC 61966-2-1)."""
+    c = np.asarray(rgb, dtype=np.float64)
+    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+
+
+def srgb_from_linear(rgb: ArrayLike) -> FloatArray:
+    """Return sRGB colours, as pictures want them, of linear ones (IEC 61966-2-1)."""
+    c = np.clip(np.asarray(rgb, dtype=np.float64), 0.0, 1.0)
+    return np.where(c <= 0.0031308, 12.92 * c, 1.055 * c ** (1 / 2.4) - 0.055)
+
+
+def _rgb(code: str) -> RGB:
+    red, green, blue = (int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue

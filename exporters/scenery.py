@@ -1,0 +1,158 @@
+"""What is on stage beside the characters: the doodle, the prop, the ground and a camera."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
+
+from actions_library.usd_skel import define_material, define_mesh
+from exporters.palette import IDLE_RGB, RGB, linear_from_srgb
+from smd.doodle import Doodle
+from smd.geometry.arrays import FloatArray
+from smd.geometry.resampling import interpolate_linear, interpolate_rotation
+from smd.score import Part
+from smd.transfer.performance import Actor, Performance
+
+DOODLE_WIDTH_M = 0.03
+GROUND_RGB: RGB = (0.78, 0.79, 0.80)
+PROP_RGB: RGB = (0.95, 0.55, 0.10)
+MARGIN_M = 2.0
+"""Of ground around everything that the characters do."""
+
+# A dart, its nose to +Z and its fin to +Y: it shows which way the prop faces and which is up.
+_DART_M = 0.4 * np.array(
+    [[0.0, 0.0, 0.6], [0.4, 0.0, -0.4], [-0.4, 0.0, -0.4], [0.0, 0.25, -0.4], [0.0, -0.1, -0.3]]
+)
+_DART_FACES = np.array([[0, 1, 3], [0, 3, 2], [1, 2, 3], [0, 4, 1], [0, 2, 4], [1, 4, 2]])
+
+
+def define_doodle(
+    stage: Usd.Stage, path: str, actor: Actor, action_colors: Mapping[str, RGB]
+) -> None:
+    """Define the doodle as linear curves: one a stretch, in its phrase's colour, idle ones grey.
+
+    Stretches that follow each other share the point between them. A doodle of a single sample
+    draws nothing.
+    """
+    points, counts, colors = [], [], []
+    for doodle in actor.doodles:
+        for action, stretch in stretches(doodle, actor.part):
+            points.append(doodle.position_m[stretch])
+            counts.append(len(points[-1]))
+            colors.append(action_colors[action] if action else IDLE_RGB)
+    if not points:
+        return
+    drawn = np.concatenate(points).astype(np.float32)
+    curves = UsdGeom.BasisCurves.Define(stage, path)
+    curves.CreateTypeAttr(UsdGeom.Tokens.linear)
+    curves.CreateWrapAttr(UsdGeom.Tokens.nonperiodic)
+    curves.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(drawn))
+    curves.CreateCurveVertexCountsAttr(counts)
+    curves.CreateWidthsAttr([DOODLE_WIDTH_M])
+    curves.SetWidthsInterpolation(UsdGeom.Tokens.constant)
+    radius = 0.5 * DOODLE_WIDTH_M
+    box = np.stack([drawn.min(axis=0) - radius, drawn.max(axis=0) + radius])
+    curves.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(box))
+    curves.CreateDisplayColorPrimvar(UsdGeom.Tokens.uniform).Set(
+        Vt.Vec3fArray.FromNumpy(linear_from_srgb(colors).astype(np.float32))
+    )
+
+
+def stretches(doodle: Doodle, part: Part) -> Iterator[tuple[str, slice]]:
+    """Yield each stretch of a doodle with its phrase's action, empty where there is none.
+
+    A stretch has at least two samples; its last is the next one's first.
+    """
+    starts = np.array([phrase.start_s for phrase in part.phrases])
+    ends = np.array([phrase.end_s for phrase in part.phrases])
+    middle_s = 0.5 * (doodle.time_s[1:] + doodle.time_s[:-1])
+    index = np.searchsorted(starts, middle_s, side="right") - 1
+    inside = index >= 0
+    inside[inside] = middle_s[inside] < ends[index[inside]]
+    label = np.where(inside, index, -1)
+    edges = np.flatnonzero(np.diff(label)) + 1
+    for first, last in zip([0, *edges], [*edges, len(label)], strict=True):
+        if last > first:
+            action = part.phrases[label[first]].action if label[first] >= 0 else ""
+            yield action, slice(int(first), int(last) + 1)
+
+
+def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performance) -> None:
+    """Define a dart that is where and how the prop was, hidden while tracking was lost."""
+    time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
+    position, orientation, tracked = prop_poses(actor.doodles, time_s)
+    prop = UsdGeom.Xform.Define(stage, path)
+    translate = prop.AddTranslateOp().GetAttr().GetPath()
+    orient = prop.AddOrientOp().GetAttr().GetPath()
+    visibility = prop.CreateVisibilityAttr().GetPath()
+    layer = stage.GetRootLayer()
+    with Sdf.ChangeBlock():
+        for frame, (p, q) in enumerate(zip(position.tolist(), orientation.tolist(), strict=True)):
+            layer.SetTimeSample(translate, float(frame), Gf.Vec3d(*p))
+            layer.SetTimeSample(orient, float(frame), Gf.Quatf(q[3], q[0], q[1], q[2]))
+        for frame in (0, *(np.flatnonzero(np.diff(tracked)) + 1).tolist()):
+            value = UsdGeom.Tokens.inherited if tracked[frame] else UsdGeom.Tokens.invisible
+            layer.SetTimeSample(visibility, float(frame), value)
+    color = tuple(linear_from_srgb(PROP_RGB).tolist())
+    # Each face has its own corners, so that the dart keeps its edges.
+    faces = np.arange(_DART_FACES.size).reshape(-1, 3)
+    mesh = define_mesh(stage, f"{path}/Dart", _DART_M[_DART_FACES].reshape(-1, 3), faces, color)
+    material = define_material(stage, f"{path}/Materials/Dart", color)
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+
+
+def prop_poses(
+    doodles: Sequence[Doodle], time_s: FloatArray
+) -> tuple[FloatArray, FloatArray, np.ndarray]:
+    """Return position, orientation xyzw and whether tracked, at each time.
+
+    Between doodles the prop waits where the last one ended.
+    """
+    owner = np.searchsorted([doodle.time_s[0] for doodle in doodles], time_s, side="right") - 1
+    owner = np.maximum(owner, 0)
+    position, orientation = np.empty((len(time_s), 3)), np.empty((len(time_s), 4))
+    tracked = np.zeros(len(time_s), bool)
+    for index, doodle in enumerate(doodles):
+        mine = owner == index
+        at_s = time_s[mine]
+        position[mine] = interpolate_linear(doodle.time_s, doodle.position_m, at_s)
+        orientation[mine] = interpolate_rotation(doodle.time_s, doodle.orientation_xyzw, at_s)
+        tracked[mine] = (at_s >= doodle.time_s[0] - 1e-9) & (at_s <= doodle.time_s[-1] + 1e-9)
+    return position, orientation, tracked
+
+
+def define_ground(stage: Usd.Stage, path: str, boxes: Sequence[FloatArray]) -> None:
+    """Define a level plane under everything that the characters do."""
+    low, high = _whole(boxes)
+    (x0, _, z0), (x1, _, z1) = np.floor(low - MARGIN_M), np.ceil(high + MARGIN_M)
+    corners = np.array([[x0, 0.0, z0], [x0, 0.0, z1], [x1, 0.0, z1], [x1, 0.0, z0]])
+    color = tuple(linear_from_srgb(GROUND_RGB).tolist())
+    mesh = define_mesh(stage, path, corners, np.array([[0, 1, 2], [0, 2, 3]]), color)
+    material = define_material(stage, f"{path}Material", color, roughness=0.9)
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+
+
+def define_camera(stage: Usd.Stage, path: str, boxes: Sequence[FloatArray]) -> None:
+    """Define a camera that sees everything the characters do, from their front left."""
+    low, high = _whole(boxes)
+    target, radius_m = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
+    camera = UsdGeom.Camera.Define(stage, path)
+    width_mm, height_mm, focal_mm = 36.0, 20.25, 40.0
+    distance_m = 1.05 * radius_m / np.sin(np.arctan(0.5 * height_mm / focal_mm))
+    away = np.array([0.45, 0.35, 1.0])
+    eye = target + distance_m * away / np.linalg.norm(away)
+    camera.CreateHorizontalApertureAttr(width_mm)
+    camera.CreateVerticalApertureAttr(height_mm)
+    camera.CreateFocalLengthAttr(focal_mm)
+    camera.CreateClippingRangeAttr(Gf.Vec2f(0.05, float(distance_m + 4.0 * radius_m)))
+    camera.CreateFocusDistanceAttr(float(distance_m))
+    view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(*eye), Gf.Vec3d(*target), Gf.Vec3d(0, 1, 0))
+    camera.AddTransformOp().Set(view.GetInverse())
+
+
+def _whole(boxes: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of the box around boxes ``(n, 2, 3)``."""
+    every = np.concatenate(boxes)
+    return every[:, 0].min(axis=0), every[:, 1].max(axis=0)
