@@ -1,0 +1,62 @@
+"""The pose that gestures start from and return to, and the ground under it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from actions_library.authoring.curves import eased
+from actions_library.authoring.feet import Plant
+from actions_library.authoring.keys import Arm, Key, Place, Turn
+from actions_library.authoring.posing import RATE_HZ, GroundPath
+
+LEFT_STANCE = Plant(-9.0, 9.0, left=0.105, ahead=0.025, yaw=9.0)
+RIGHT_STANCE = Plant(-9.0, 9.0, left=-0.100, ahead=-0.020, yaw=-12.0)
+
+STAND = Key(
+    0.0,
+    place=Place(left=0.012, up=-0.013, ahead=0.0),
+    hips=Turn(yaw=-2.0, lean=2.0, tilt=1.5),
+    chest=Turn(yaw=1.5, lean=0.5, tilt=-1.0),
+    head=Turn(yaw=0.0, lean=3.0, tilt=0.0),
+    left_arm=Arm(to=(0.19, -1.0, 0.06), bend=17.0),
+    right_arm=Arm(to=(0.20, -1.0, 0.09), bend=22.0),
+)
+"""Weight a little on the left leg, arms hanging, eyes ahead."""
+
+
+def standing_still(duration_s: float) -> GroundPath:
+    """Return a ground path that stays where it is."""
+    zero = np.zeros(frame_count(duration_s))
+    return GroundPath(zero, zero, zero)
+
+
+def moved_in_one_go(
+    duration_s: float, start_s: float, end_s: float, *, ahead: float = 0.0, yaw: float = 0.0
+) -> GroundPath:
+    """Return a ground path that goes ``ahead`` metres and turns ``yaw`` degrees between times."""
+    time_s = np.arange(frame_count(duration_s)) / RATE_HZ
+    way = eased((time_s - start_s) / (end_s - start_s))
+    return GroundPath(np.zeros_like(way), ahead * way, np.radians(yaw) * way)
+
+
+def steady_travel(duration_s: float, *, left: float = 0.0, ahead: float = 0.0) -> GroundPath:
+    """Return a ground path at constant speed over so many metres."""
+    way = np.linspace(0.0, 1.0, frame_count(duration_s))
+    return GroundPath(left * way, ahead * way, np.zeros_like(way))
+
+
+def frame_count(duration_s: float) -> int:
+    """Return how many frames a duration takes, both ends included."""
+    return round(duration_s * RATE_HZ) + 1
+
+
+def stood(plant: Plant, until: float) -> Plant:
+    """Return the stance up to the time the foot leaves it."""
+    return replace(plant, leave=until)
+
+
+def stands_again(plant: Plant, since: float) -> Plant:
+    """Return the stance from the time the foot comes back to it."""
+    return replace(plant, land=since)
