@@ -11,6 +11,9 @@ from smd.errors import PatternError
 Direction = tuple[int, int, int]
 """Signs along +X (left), +Y (up), +Z (front): one of 27; (0, 0, 0) is no movement."""
 
+DEFAULT_FIGURE_HEIGHT_M = 0.175
+"""Height of the figurine that the prop stands for; 1 : 10 of a person of 1.75 m."""
+
 
 @dataclass(frozen=True, slots=True, order=True)
 class Token:
@@ -74,6 +77,8 @@ class TokenRun:
     """One token held over the samples ``first`` (included) to ``last`` (excluded).
 
     ``start_s`` and ``end_s`` are the times at which the run begins and the next one begins.
+    ``travel_heights`` is how far the prop moved, in heights of the figurine it stands for, where
+    the token moves at all (else 0); ``turn_rad`` how far it turned, where the token turns.
     """
 
     token: Token
@@ -81,3 +86,5 @@ class TokenRun:
     last: int
     start_s: float
     end_s: float
+    travel_heights: float = 0.0
+    turn_rad: float = 0.0

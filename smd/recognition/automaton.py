@@ -1,0 +1,204 @@
+"""Automaton: the least edit distance from a token string to everything a pattern stands for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.errors import PatternError
+from smd.geometry.arrays import FloatArray, IntArray, frozen_array
+from smd.recognition import pattern as ast
+from smd.recognition.pattern import Pattern
+from smd.recognition.tokens import Token
+
+FAR = 1 << 30
+"""More edits than any string needs: no way leads there."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Automaton:
+    """A pattern compiled for measuring: its positions, and how many tokens lie between them.
+
+    A position is one occurrence of a token in the pattern (Glushkov's construction [1]_). A
+    string follows a path through positions and may stay at each as long as it likes, since
+    repetition of a token does not count; for the same reason neighbouring positions of one token
+    can be read as one. The counts hold the least number of tokens that a path passes without
+    reading them, which are the tokens missing from the string.
+
+    Attributes
+    ----------
+    tokens : the token of each of the p positions.
+    enter : (p,) int64, tokens missing if a string begins at a position.
+    step : (p, p) int64, ``step[a, b]`` tokens missing if position b is read after a; `FAR` where
+        no path leads from a to b.
+    leave : (p,) int64, tokens missing if a string ends at a position.
+
+    References
+    ----------
+    .. [1] V. M. Glushkov, "The Abstract Theory of Automata", Russian Mathematical Surveys 16(5),
+       1961.
+    """
+
+    tokens: tuple[Token, ...]
+    enter: IntArray
+    step: IntArray
+    leave: IntArray
+
+    def __post_init__(self) -> None:
+        p = len(self.tokens)
+        for name, shape in (("enter", (p,)), ("step", (p, p)), ("leave", (p,))):
+            array = frozen_array(name, getattr(self, name), shape, PatternError, np.int64)
+            object.__setattr__(self, name, array)
+
+    def __len__(self) -> int:
+        return len(self.tokens)
+
+    @property
+    def shortest(self) -> int:
+        """Number of tokens in the shortest string of the pattern."""
+        return int((self.enter + self.leave).min()) + 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Occurrences:
+    """Where in a string something like the pattern ends.
+
+    Attributes
+    ----------
+    distance : (n + 1,) int64, ``distance[j]`` the least distance of a part that ends before
+        token j; the part may be empty.
+    start : (n + 1,) int64, where that part begins; the shortest one if several are as near.
+    """
+
+    distance: IntArray
+    start: IntArray
+
+
+def compile_automaton(pattern: Pattern) -> Automaton:
+    """Compile a pattern; for p positions this takes O(p^3) time, once."""
+    tokens: list[Token] = []
+    follow: set[tuple[int, int]] = set()
+    first, last, _ = _glushkov(pattern.root, tokens, follow)
+    changes = _least_changes(tokens, follow)
+    return Automaton(
+        tokens=tuple(tokens),
+        enter=changes[sorted(first)].min(axis=0),
+        step=np.maximum(changes - 1, 0),
+        leave=changes[:, sorted(last)].min(axis=1),
+    )
+
+
+def edit_distance(automaton: Automaton, word: Sequence[Token]) -> int:
+    """Return the least number of edits that turn ``word`` into a string of the pattern.
+
+    An edit inserts, deletes or replaces one token. A string is of the pattern if, its runs of
+    equal tokens merged, it is one of the pattern's words (the Levenshtein distance of section 4.2
+    of the paper, exact for any repetition).
+    """
+    wrong = wrong_tokens(automaton, word).astype(np.float64)
+    return int(least_cost(automaton, read=wrong, skip=np.ones(len(word))))
+
+
+def least_cost(automaton: Automaton, *, read: FloatArray, skip: FloatArray) -> float:
+    """Return the least cost of turning a string of n tokens into one of the pattern.
+
+    Parameters
+    ----------
+    read
+        ``(n, p)``, what it costs to take token i for the token of a position.
+    skip
+        ``(n,)``, what it costs to leave token i out. A missing token costs 1.
+    """
+    unread = 0.0
+    reached = np.full(len(automaton), float(FAR))
+    for reading, skipping in zip(read, skip, strict=True):
+        arriving = np.minimum(unread + automaton.enter, _arrivals(reached, automaton.step))
+        reached = np.minimum(reached + skipping, arriving + reading)
+        unread += skipping
+    return min(unread + automaton.shortest, float((reached + automaton.leave).min()))
+
+
+def occurrences(automaton: Automaton, word: Sequence[Token]) -> Occurrences:
+    """Find, for each end in a string, the part that is nearest to the pattern.
+
+    One pass over the string (Sellers' algorithm [1]_ on the automaton), exact, unit costs.
+
+    References
+    ----------
+    .. [1] P. H. Sellers, "The Theory and Computation of Evolutionary Distances: Pattern
+       Recognition", Journal of Algorithms 1(4), 1980.
+    """
+    n = len(word)
+    # Distance and start in one number, compared in this order: distance * unit + (n - start).
+    unit = n + 1
+    enter, step, leave = (unit * a for a in (automaton.enter, automaton.step, automaton.leave))
+    wrong = unit * wrong_tokens(automaton, word)
+    reached = np.full(len(automaton), unit * FAR)
+    best = np.empty(n + 1, np.int64)
+    for j in range(n + 1):
+        best[j] = min(unit * automaton.shortest + n - j, int((reached + leave).min()))
+        if j < n:
+            arriving = np.minimum(n - j + enter, _arrivals(reached, step))
+            reached = np.minimum(reached + unit, arriving + wrong[j])
+    return Occurrences(distance=best // unit, start=n - best % unit)
+
+
+def wrong_tokens(automaton: Automaton, word: Sequence[Token]) -> IntArray:
+    """Return ``(n, p)``: 0 where a token of the string is that of the position, 1 elsewhere."""
+    index = {token: i for i, token in enumerate(dict.fromkeys((*automaton.tokens, *word)))}
+    given = np.array([index[token] for token in word], dtype=np.int64)
+    wanted = np.array([index[token] for token in automaton.tokens], dtype=np.int64)
+    return (given[:, None] != wanted[None, :]).astype(np.int64)
+
+
+def _arrivals(reached: FloatArray, step: IntArray) -> FloatArray:
+    """Return the least cost of standing before each position, coming from any other."""
+    return (reached[..., :, None] + step).min(axis=-2)
+
+
+def _glushkov(
+    node: ast.Node, tokens: list[Token], follow: set[tuple[int, int]]
+) -> tuple[set[int], set[int], bool]:
+    """Return an expression's first and last positions and whether it may be empty.
+
+    Its positions are added to ``tokens``, the pairs that may stand side by side to ``follow``.
+    """
+    match node:
+        case Token():
+            tokens.append(node)
+            here = {len(tokens) - 1}
+            return here, here, False
+        case ast.Sequence(parts):
+            first, last, empty = _glushkov(parts[0], tokens, follow)
+            for part in parts[1:]:
+                part_first, part_last, part_empty = _glushkov(part, tokens, follow)
+                follow |= {(a, b) for a in last for b in part_first}
+                first = first | part_first if empty else first
+                last = last | part_last if part_empty else part_last
+                empty = empty and part_empty
+            return first, last, empty
+        case ast.Choice(options):
+            read = [_glushkov(option, tokens, follow) for option in options]
+            return (
+                set().union(*(first for first, _, _ in read)),
+                set().union(*(last for _, last, _ in read)),
+                any(empty for _, _, empty in read),
+            )
+        case ast.Repeat(body, optional):
+            first, last, empty = _glushkov(body, tokens, follow)
+            follow |= {(a, b) for a in last for b in first}
+            return first, last, empty or optional
+
+
+def _least_changes(tokens: list[Token], follow: set[tuple[int, int]]) -> IntArray:
+    """Return ``(p, p)``: the least number of changes of token on a way between two positions."""
+    p = len(tokens)
+    changes = np.full((p, p), FAR, dtype=np.int64)
+    for a, b in follow:
+        changes[a, b] = tokens[a] != tokens[b]
+    np.fill_diagonal(changes, 0)
+    for via in range(p):  # Floyd and Warshall
+        changes = np.minimum(changes, changes[:, via, None] + changes[None, via, :])
+    return np.minimum(changes, FAR)

@@ -1,0 +1,248 @@
+"""Tokenizer: from a smooth motion to runs of tokens, in the prop's own frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from laban import RigidMotion
+from smd.geometry.arrays import BoolArray, FloatArray, IntArray
+from smd.geometry.rotations import inverse, normalized, rotate
+from smd.recognition.tokens import DEFAULT_FIGURE_HEIGHT_M, Direction, Token, TokenRun
+
+_SIGNS = (-1, 0, 1)
+DIRECTIONS: tuple[Direction, ...] = tuple((x, y, z) for x in _SIGNS for y in _SIGNS for z in _SIGNS)
+"""The 27 bins, in the order of their index; bin `NONE` is no movement."""
+
+NONE = DIRECTIONS.index((0, 0, 0))
+"""Index of the bin of no movement."""
+
+
+@dataclass(frozen=True, slots=True)
+class Thresholds:
+    """What counts as meant.
+
+    Attributes
+    ----------
+    still : the paper's epsilon. Its sum of squares needs one unit: speed is counted in figure
+        heights per second (a figurine that moves by its own height moves as visibly as one that
+        turns by a radian), rotation in rad/s. 0.05 is 0.039 m/s for a figurine of 0.175 m.
+    turning_rad_s : slower turning than this is the wobble of a hand. Higher than the paper's
+        epsilon alone (0.22 rad/s), below which no hand that walks a figurine stays.
+    lever_heights : distance from the prop's centre, in figure heights, at which people take the
+        prop to turn it. Moving that turning about such a point explains is not meant: half a
+        height reaches every point of the figurine.
+    swing_m : radius of an arm's natural swing. Turning that moving on such a circle explains is
+        not meant.
+    hold : a part that is on stays on down to this fraction of its threshold.
+    stay_rad : another direction must be nearer than the current one by this angle to replace it.
+    shortest_s : shorter runs are absorbed ("repeated more than twice" at 60 Hz, section 4.3).
+    """
+
+    still: float = 0.05
+    turning_rad_s: float = 0.8
+    lever_heights: float = 0.5
+    swing_m: float = 0.5
+    hold: float = 0.5
+    stay_rad: float = np.radians(8.0)
+    shortest_s: float = 2.0 / 60.0
+
+
+DEFAULT_THRESHOLDS = Thresholds()
+
+
+def tokenize(
+    motion: RigidMotion,
+    *,
+    figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+    drawing: BoolArray | None = None,
+    thresholds: Thresholds = DEFAULT_THRESHOLDS,
+) -> tuple[TokenRun, ...]:
+    """Cut a motion into runs of one token each (section 4.1 of the paper [1]_).
+
+    The prop's velocity is read in its own frame and its angular velocity in the body's, so where
+    the user stands and faces does not matter. Each is put in the nearest of 26 directions, or in
+    none where it is not meant: too slow, or explained by the other one (turning about a point
+    beside the prop's centre moves it; an arm that swings turns it).
+
+    Parameters
+    ----------
+    motion
+        Smooth, with derivatives; n samples.
+    figure_height_m
+        Height of the figurine that the prop stands for.
+    drawing
+        ``(n,)``, false where the user did not mean to draw; such samples are STILL. All true if
+        absent.
+
+    Returns
+    -------
+    tuple of TokenRun
+        Covers every sample; neighbours have different tokens.
+
+    References
+    ----------
+    .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
+    """
+    if len(motion) == 0:
+        return ()
+    velocity = rotate(inverse(motion.orientation_xyzw), motion.velocity_m_s)
+    turning = motion.angular_velocity_rad_s
+    on = np.ones(len(motion), bool) if drawing is None else np.asarray(drawing, bool)
+
+    meant_turning = _beyond_swing(turning, velocity, thresholds.swing_m)
+    rotation = _bins(meant_turning, thresholds.turning_rad_s, on, thresholds)
+    lever_m = thresholds.lever_heights * figure_height_m
+    meant_velocity = _beyond_lever(velocity, turning * (rotation != NONE)[:, None], lever_m)
+    level_m_s = np.sqrt(thresholds.still) * figure_height_m
+    translation = _bins(meant_velocity, level_m_s, on, thresholds)
+
+    samples_per_s = (len(motion) - 1) / max(motion.time_s[-1] - motion.time_s[0], 1e-9)
+    # + 1e-9: 2/60 s at 60 Hz is 1.999…96 samples, and a run must be longer than that.
+    shortest = int(thresholds.shortest_s * samples_per_s + 1e-9) + 1
+    starts, codes = _long_runs(len(DIRECTIONS) * translation + rotation, shortest)
+    return _runs(motion, starts, codes, figure_height_m)
+
+
+def _across(vector: FloatArray, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Split vectors into the parts along an axis and across it."""
+    unit = normalized(axis)
+    along = np.sum(vector * unit, axis=-1, keepdims=True) * unit
+    return along, vector - along
+
+
+def _shortened(vector: FloatArray, by: FloatArray) -> FloatArray:
+    """Return vectors shortened by ``by (n,)``, at most to zero."""
+    length = np.linalg.norm(vector, axis=-1)
+    return normalized(vector) * np.maximum(length - by, 0.0)[:, None]
+
+
+def _beyond_lever(velocity: FloatArray, turning: FloatArray, lever_m: float) -> FloatArray:
+    """Return the velocity that turning about no point within ``lever_m`` explains."""
+    along, across = _across(velocity, turning)
+    return along + _shortened(across, lever_m * np.linalg.norm(turning, axis=-1))
+
+
+def _beyond_swing(turning: FloatArray, velocity: FloatArray, radius_m: float) -> FloatArray:
+    """Return the turning that moving on no circle of ``radius_m`` or more explains."""
+    along, across = _across(turning, velocity)
+    return along + _shortened(across, np.linalg.norm(velocity, axis=-1) / radius_m)
+
+
+def _bins(vector: FloatArray, level: float, on: BoolArray, thresholds: Thresholds) -> IntArray:
+    """Return each vector's bin, none where it stays below the level."""
+    length = np.linalg.norm(vector, axis=-1)
+    strong = on & (length > level)
+    held = _joined_to(strong, on & (length > thresholds.hold * level))
+    source = _nearest_in_run(strong, held)
+    bins = np.full(len(vector), NONE)
+    where = np.flatnonzero(held)
+    if len(where):
+        first = np.flatnonzero(np.diff(where, prepend=-2) > 1)
+        bins[where] = _steady_directions(vector[source[where]], first, thresholds.stay_rad)
+    return bins
+
+
+def _edges(mask: BoolArray) -> tuple[IntArray, IntArray]:
+    """Return where the runs of true begin and where they end (excluded)."""
+    steps = np.diff(mask.astype(np.int8), prepend=0, append=0)
+    return np.flatnonzero(steps == 1), np.flatnonzero(steps == -1)
+
+
+def _joined_to(strong: BoolArray, weak: BoolArray) -> BoolArray:
+    """Return the runs of ``weak`` that hold a sample of ``strong``: hysteresis both ways in time.
+
+    A gesture so begins where it leaves rest, not where it reaches the threshold.
+    """
+    first, last = _edges(weak)
+    count = np.concatenate([[0], np.cumsum(strong)])
+    kept = count[last] > count[first]
+    change = np.zeros(len(weak) + 1, np.int64)
+    change[first[kept]] += 1
+    change[last[kept]] -= 1
+    return np.cumsum(change[:-1]) > 0
+
+
+def _nearest_in_run(strong: BoolArray, held: BoolArray) -> IntArray:
+    """Return for each sample the last strong one of its run, or the first one to come.
+
+    The direction of a slow sample is mostly noise; it takes that of the movement it belongs to.
+    """
+    n = len(strong)
+    index = np.arange(n)
+    before = np.maximum.accumulate(np.where(strong, index, -1))
+    after = np.minimum.accumulate(np.where(strong, index, n)[::-1])[::-1]
+    run_start = np.maximum.accumulate(np.where(held & ~np.roll(held, 1), index, 0))
+    return np.where(before >= run_start, before, np.minimum(after, n - 1))
+
+
+_UNITS = normalized(np.array(DIRECTIONS, dtype=np.float64))
+
+
+def _steady_directions(vector: FloatArray, first: IntArray, stay_rad: float) -> IntArray:
+    """Return the nearest bin of each vector ``(m, 3)``, keeping the current one while it is close.
+
+    ``first`` lists the samples at which a new run begins, with nothing to keep.
+    """
+    cosine = normalized(vector) @ _UNITS.T
+    cosine[:, NONE] = -1.0
+    angle = np.arccos(np.clip(cosine, -1.0, 1.0))
+    nearest = np.argmin(angle, axis=-1)
+    limit = (np.min(angle, axis=-1) + stay_rad).tolist()
+    fresh = np.zeros(len(vector), bool)
+    fresh[first] = True
+    # A change needs a sample that is nearest to another bin than the one before it, so only the
+    # samples where the nearest bin is not the current one are looked at, in plain Python.
+    angles, nearests, is_fresh = angle.tolist(), nearest.tolist(), fresh.tolist()
+    current, bins = NONE, []
+    for row, best, most, new in zip(angles, nearests, limit, is_fresh, strict=True):
+        if best != current and (new or row[current] > most):
+            current = best
+        bins.append(current)
+    return np.array(bins, dtype=np.int64)
+
+
+def _long_runs(code: IntArray, shortest: int) -> tuple[IntArray, IntArray]:
+    """Return where each run begins and its code, once runs below ``shortest`` are absorbed.
+
+    A stretch of short runs is shared between the long ones around it, half each. Where no run is
+    long, the longest one takes all.
+    """
+    begin = np.flatnonzero(np.diff(code, prepend=code[0] - 1))
+    end = np.append(begin[1:], len(code))
+    kept = np.flatnonzero(end - begin >= shortest)
+    if len(kept) == 0:
+        kept = np.array([int(np.argmax(end - begin))])
+    starts = np.concatenate([[0], (end[kept[:-1]] + begin[kept[1:]]) // 2])
+    codes = code[begin[kept]]
+    changed = np.diff(codes, prepend=codes[0] - 1) != 0
+    return starts[changed], codes[changed]
+
+
+def _runs(
+    motion: RigidMotion, starts: IntArray, codes: IntArray, figure_height_m: float
+) -> tuple[TokenRun, ...]:
+    """Return the runs with their times and how far the prop went and turned in each."""
+    step_s = (motion.time_s[-1] - motion.time_s[0]) / max(len(motion) - 1, 1)
+    speed = np.linalg.norm(motion.velocity_m_s, axis=-1) / figure_height_m
+    rate = np.linalg.norm(motion.angular_velocity_rad_s, axis=-1)
+    travel = (np.add.reduceat(speed, starts) * step_s).tolist()
+    turn = (np.add.reduceat(rate, starts) * step_s).tolist()
+    bounds = np.append(starts, len(motion))
+    time_s = np.append(motion.time_s[starts], motion.time_s[-1] + step_s).tolist()
+    runs = []
+    for i, code in enumerate(codes.tolist()):
+        translation, rotation = DIRECTIONS[code // 27], DIRECTIONS[code % 27]
+        runs.append(
+            TokenRun(
+                token=Token(translation, rotation),
+                first=int(bounds[i]),
+                last=int(bounds[i + 1]),
+                start_s=time_s[i],
+                end_s=time_s[i + 1],
+                travel_heights=travel[i] if any(translation) else 0.0,
+                turn_rad=turn[i] if any(rotation) else 0.0,
+            )
+        )
+    return tuple(runs)

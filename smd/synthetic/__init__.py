@@ -1,0 +1,1 @@
+"""Doodles with known answers: simple curves, gestures of simulated people, stories."""
