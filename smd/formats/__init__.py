@@ -1,0 +1,12 @@
+"""Recording files: one module per format, all read into our convention.
+
+A format is a module with ``matches(head)``, which knows its files by their content, and
+``read(text, name)``, which returns the poses as they stand in the file; what all formats share
+(frames, checks, dropouts) is done once, in `smd.formats.reading`.
+"""
+
+from smd.formats.frame import Mount, SourceFrame
+from smd.formats.native import write_recording
+from smd.formats.reading import SUFFIXES, read_recording
+
+__all__ = ["SUFFIXES", "Mount", "SourceFrame", "read_recording", "write_recording"]

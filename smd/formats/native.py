@@ -1,0 +1,231 @@
+"""CSV: our own recordings, and plain tables of poses from elsewhere.
+
+Optional ``# key: value`` lines, a header, rows::
+
+    # schema: smd.recording
+    # version: 1
+    time_s,device,x,y,z,qx,qy,qz,qw,drawing
+    0.000,left,0.10,0.95,0.20,0,0,0,1,1
+
+The header names the columns, in any order; ``t``, ``time`` and ``timestamp`` mean ``time_s``;
+without ``device`` the file is one doodle; columns with other names are left alone. Without a
+header the columns are time, position and quaternion.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from smd.doodle import Recording
+from smd.errors import RecordingError
+from smd.files import replacing
+from smd.formats.frame import SourceFrame
+from smd.formats.table import Encoder, cells, is_row, line_of_row, number, read_table
+from smd.formats.tracks import Content, Track, fault, shown
+from smd.geometry.arrays import IntArray
+
+SCHEMA = "smd.recording"
+VERSION = 1
+ONLY_DEVICE = "prop"
+"""Name of the device where a file does not name any."""
+
+_POSITION = ("x", "y", "z")
+_QUATERNION = ("qx", "qy", "qz", "qw")
+_TIMES = ("time_s", "t", "time", "timestamp")
+_HEADERLESS = ("time_s", *_POSITION, "q1", "q2", "q3", "q4")
+_TRUTH = {"1": 1.0, "true": 1.0, "1.0": 1.0, "0": 0.0, "false": 0.0, "0.0": 0.0}
+
+
+def matches(head: str) -> bool:
+    """Return whether a text begins like a CSV: its first row has commas, and is not JSON."""
+    row = next((line for line in head.split("\n") if is_row(line)), "")
+    return "," in row and not row.lstrip().startswith(("{", "["))
+
+
+def read(text: str, name: str) -> Content:
+    """Return the tracks of a CSV.
+
+    Raises
+    ------
+    RecordingError
+        If columns are missing, or a row or cell is not what its column says.
+    """
+    lines = text.split("\n")
+    first = next(i for i, line in enumerate(lines) if is_row(line))
+    metadata = _metadata(name, lines[:first])
+    header = [cell.lower() for cell in cells(lines[first], ",")]
+    headerless = _is_number(header[0])
+    if headerless:
+        columns: Sequence[str] = _HEADERLESS
+        if len(header) != len(columns):
+            raise fault(
+                name,
+                f"line {first + 1}",
+                f"a header, or {len(columns)} columns (time, position, quaternion)",
+                f"{len(header)} columns without a header",
+            )
+    else:
+        columns = _known(name, first, header)
+        first += 1
+    devices: dict[str, float] = {}
+    encoders: dict[int | str, Encoder] = {}
+    for i, column in enumerate(columns):
+        if column == "device":
+            encoders[i] = _device_encoder(devices)
+        elif column == "drawing":
+            encoders[i] = _drawing
+        elif column not in (*_HEADERLESS, *_QUATERNION):
+            encoders[i] = _anything
+    values = read_table(name, lines, first, ",", columns, encoders)
+    where = {column: i for i, column in enumerate(columns)}
+    quaternion = _HEADERLESS[4:] if headerless else _QUATERNION
+    code = values[:, where["device"]] if "device" in where else np.zeros(len(values))
+    tracks = []
+    for device, number_of_device in (devices or {ONLY_DEVICE: 0.0}).items():
+        rows = np.flatnonzero(code == number_of_device)
+        tracks.append(
+            Track(
+                device=device,
+                time_s=values[rows, where["time_s"]],
+                position=values[rows][:, [where[column] for column in _POSITION]],
+                quaternion=values[rows][:, [where[column] for column in quaternion]],
+                drawing=values[rows, where["drawing"]] > 0.0 if "drawing" in where else None,
+                place=partial(_place, lines, first, rows),
+            )
+        )
+    return Content(
+        tracks=tuple(tracks),
+        frame=SourceFrame.ours(),
+        order_is_given=not headerless,
+        metadata=metadata,
+    )
+
+
+def _place(lines: Sequence[str], first: int, rows: IntArray, i: int) -> str:
+    """Return where row ``i`` of a device stands in the file."""
+    return line_of_row(lines, first, int(rows[i]))
+
+
+def write_recording(recording: Recording, path: str | Path) -> None:
+    """Write a recording as native CSV, every number so that it reads back the same.
+
+    Where a doodle was split, its rows leave the gap; metadata keys and values lose line breaks
+    and spaces at their ends. What was lost (``recording.dropouts``) is not written.
+
+    Raises
+    ------
+    RecordingError
+        If a metadata key or a device's name cannot stand in a CSV.
+    ExportError
+        If the file cannot be written.
+    """
+    drawing = [
+        np.ones(len(doodle), bool) if doodle.drawing is None else doodle.drawing
+        for doodle in recording.doodles
+    ]
+    always = all(drawn.all() for drawn in drawing)
+    header = ["time_s", "device", *_POSITION, *_QUATERNION, *([] if always else ["drawing"])]
+    with replacing(Path(path)) as temporary, temporary.open("w", encoding="utf-8", newline="") as f:
+        f.write(f"# schema: {SCHEMA}\n# version: {VERSION}\n")
+        for key, value in recording.metadata.items():
+            f.write(f"# {_writable_key(key)}: {' '.join(value.split())}\n")
+        rows = csv.writer(f, lineterminator="\n")
+        rows.writerow(header)
+        for doodle, drawn in zip(recording.doodles, drawing, strict=True):
+            device = _writable_device(doodle.device)
+            pose = np.column_stack([doodle.position_m, doodle.orientation_xyzw])
+            for time_s, numbers, mark in zip(
+                doodle.time_s.tolist(), pose.tolist(), drawn.tolist(), strict=True
+            ):
+                rows.writerow([time_s, device, *numbers, *([] if always else [int(mark)])])
+
+
+def _metadata(name: str, lines: Sequence[str]) -> dict[str, str]:
+    """Return the ``# key: value`` lines; schema and version are checked and left out."""
+    metadata: dict[str, str] = {}
+    for line in lines:
+        key, colon, value = line.strip().removeprefix("#").partition(":")
+        if colon and key.strip():
+            metadata[key.strip()] = value.strip()
+    if metadata.get("schema") == SCHEMA:
+        del metadata["schema"]
+        version = metadata.pop("version", "none")
+        if version != str(VERSION):
+            raise fault(name, "", f"version {VERSION} of {SCHEMA}", f"version {version}")
+    return metadata
+
+
+def _known(name: str, index: int, header: Sequence[str]) -> list[str]:
+    """Return the header with one name for time, or raise what it lacks or repeats."""
+    columns = ["time_s" if cell in _TIMES else cell for cell in header]
+    wanted = ("time_s", *_POSITION, *_QUATERNION)
+    missing = [column for column in wanted if column not in columns]
+    place = f"line {index + 1}"
+    if missing:
+        raise fault(
+            name,
+            place,
+            f"a header with {', '.join(wanted)}",
+            f"no {', '.join(missing)} in {shown(','.join(header))}",
+        )
+    for column in (*wanted, "device", "drawing"):
+        if columns.count(column) > 1:
+            raise fault(name, place, f"one column {column}", str(columns.count(column)))
+    return columns
+
+
+def _is_number(cell: str) -> bool:
+    """Return whether a cell holds a number."""
+    try:
+        number(cell)
+    except ValueError:
+        return False
+    return bool(cell)
+
+
+def _device_encoder(devices: dict[str, float]) -> Encoder:
+    """Return an encoder that numbers devices as they appear, and keeps their names."""
+
+    def encode(cell: str) -> float:
+        device = cell.strip()
+        if not device:
+            raise ValueError("a name")
+        return devices.setdefault(device, float(len(devices)))
+
+    return encode
+
+
+def _drawing(cell: str) -> float:
+    """Return 1 for true and 0 for false."""
+    try:
+        return _TRUTH[cell.strip().lower()]
+    except KeyError:
+        raise ValueError("0 or 1") from None
+
+
+def _anything(cell: str) -> float:
+    """Accept a cell of a column that is not ours."""
+    del cell
+    return 0.0
+
+
+def _writable_key(key: str) -> str:
+    """Return a metadata key that reads back."""
+    if key != " ".join(key.split()) or not key or ":" in key or key in ("schema", "version"):
+        raise RecordingError(
+            f"metadata: expected a key on one line, without ':', not schema or version, "
+            f"found {key!r}"
+        )
+    return key
+
+
+def _writable_device(device: str) -> str:
+    """Return a device's name that reads back."""
+    if device != " ".join(device.split()) or not device:
+        raise RecordingError(f"device: expected a name on one line, found {device!r}")
+    return device

@@ -1,0 +1,132 @@
+"""Reading a recording: which format, whose frame, what was lost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from smd.doodle import Doodle, Dropout, Recording
+from smd.formats import aframe, native, tum
+from smd.formats.checks import checked
+from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
+from smd.formats.frame import Conversion, SourceFrame
+from smd.formats.text import read_text
+from smd.formats.tracks import Content, Track, fault, shown
+from smd.geometry.rotations import normalized
+
+FORMATS = (aframe, native, tum)
+"""Asked in this order whether a file is theirs."""
+
+SUFFIXES = (".csv", ".json", ".tum")
+"""Suffixes of recordings: what a folder is searched for."""
+
+READABLE = (*SUFFIXES, ".txt")
+"""Suffixes that are read when a file is named: text may be a table of poses, or prose."""
+
+HEADSETS = ("camera",)
+"""Devices that are worn and not played with; they are read only when asked for."""
+
+_HEAD = 65_536  # characters by which formats know their files
+
+
+def read_recording(
+    path: str | Path, frame: SourceFrame | None = None, *, device: str | None = None
+) -> Recording:
+    """Read a recording of any format into our convention.
+
+    The content decides which format it is. Rows where tracking was lost (`Dropout`) are left
+    out; a loss of more than 0.25 s ends one doodle and begins the next, a shorter one is left
+    for smoothing to bridge.
+
+    Parameters
+    ----------
+    path
+        A native or plain CSV, a TUM trajectory, or A-Frame motion capture (JSON).
+    frame
+        What the numbers mean, where the format's own answer is not right.
+    device
+        Read this device alone. By default all but headsets (``camera``) are read.
+
+    Returns
+    -------
+    Recording
+        Doodles in the file's order of devices; times on the file's clock, but counted from the
+        first pose where that clock means nothing to a reader (TUM, A-Frame).
+
+    Raises
+    ------
+    RecordingError
+        If the file cannot be read or understood; one line that names the place, what was
+        expected and what was found.
+    """
+    name = str(path)
+    path = Path(path)
+    if path.suffix.lower() not in READABLE:
+        suffix = repr(path.suffix) if path.suffix else "no suffix"
+        raise fault(name, "", f"a file with suffix {' '.join(READABLE)}", suffix)
+    content = _content(read_text(path, name), name)
+    asked = frame or SourceFrame()
+    if content.order_is_given and asked.quaternion not in (None, content.frame.quaternion):
+        raise fault(
+            name, "", "no quaternion order, as the file names components", str(asked.quaternion)
+        )
+    conversion = asked.completed(content.frame).conversion()
+    doodles: list[Doodle] = []
+    dropouts: list[Dropout] = []
+    for track in _chosen(name, content.tracks, device):
+        drawn, lost = _doodles(name, track, conversion)
+        doodles += drawn
+        dropouts += lost
+    return Recording(tuple(doodles), name, tuple(dropouts), content.metadata)
+
+
+def _content(text: str, name: str) -> Content:
+    """Return what the format that knows this text reads from it."""
+    for reader in FORMATS:
+        if reader.matches(text[:_HEAD]):
+            return reader.read(text, name)
+    if not text.strip():
+        raise fault(name, "", "rows of poses", "an empty file")
+    start = next((line for line in text.split("\n") if line.strip()), "")
+    raise fault(
+        name, "", "a CSV or TUM table of poses, or A-Frame JSON", f"text that begins {shown(start)}"
+    )
+
+
+def _chosen(name: str, tracks: tuple[Track, ...], device: str | None) -> tuple[Track, ...]:
+    """Return the tracks to read."""
+    if device is not None:
+        chosen = tuple(track for track in tracks if track.device == device)
+        found = f"only {', '.join(repr(track.device) for track in tracks)}"
+    else:
+        chosen = tuple(track for track in tracks if track.device not in HEADSETS)
+        found = "only a headset"
+    if not chosen:
+        wanted = "a device to play with" if device is None else f"device {device!r}"
+        raise fault(name, "", wanted, found)
+    return chosen
+
+
+def _doodles(
+    name: str, track: Track, conversion: Conversion
+) -> tuple[list[Doodle], tuple[Dropout, ...]]:
+    """Return the doodles of one device, and where it was lost."""
+    valid = checked(name, track, conversion.metres_per_unit)
+    position_m, orientation_xyzw = conversion.poses(track.position, normalized(track.quaternion))
+    tracking = find_dropouts(track.device, track.time_s, position_m, orientation_xyzw, valid)
+    if not any(len(stretch) > 1 for stretch in tracking.stretches):
+        raise fault(
+            name,
+            f"device {track.device!r}",
+            f"a stretch of at least {SHORTEST_LOSS_S:g} s without loss of tracking",
+            "none",
+        )
+    return [
+        Doodle(
+            time_s=track.time_s[rows],
+            position_m=position_m[rows],
+            orientation_xyzw=orientation_xyzw[rows],
+            device=track.device,
+            drawing=None if track.drawing is None else track.drawing[rows],
+        )
+        for rows in tracking.stretches
+    ], tracking.dropouts

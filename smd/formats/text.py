@@ -1,0 +1,49 @@
+"""The text of a file, or one line that says why there is none."""
+
+from __future__ import annotations
+
+import codecs
+from pathlib import Path
+
+from smd.formats.tracks import fault
+
+
+def read_text(path: Path, name: str) -> str:
+    r"""Return a UTF-8 file's text, its line ends as ``\n`` and a byte order mark left out.
+
+    Raises
+    ------
+    RecordingError
+        If there is no such file, it cannot be read, or is not UTF-8 text.
+    """
+    try:
+        if path.is_dir():
+            raise fault(name, "", "a recording", "a folder")
+        if not path.exists():
+            raise fault(name, "", "a recording", "no such file")
+        if not path.is_file():
+            raise fault(name, "", "a recording", "no regular file")
+        data = path.read_bytes()
+    except (OSError, ValueError) as error:  # ValueError: a null byte in the name
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise fault(name, "", "a file that can be read", str(reason)) from error
+    if _is_utf16(data):
+        raise fault(name, "", "text in UTF-8", "UTF-16; save it again as UTF-8")
+    if b"\0" in data:
+        raise fault(name, "", "text", "binary data")
+    try:
+        text = data.removeprefix(codecs.BOM_UTF8).decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        found = f"byte 0x{data[error.start]:02x}; save it again as UTF-8"
+        raise fault(name, f"line {line}", "text in UTF-8", found) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _is_utf16(data: bytes) -> bool:
+    """Return whether data starts with UTF-16's mark, or every other byte of plain text is zero."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return True
+    start = data[:200]
+    zeros = max(start[0::2].count(0), start[1::2].count(0))
+    return len(start) > 1 and start.count(0) == zeros > 0.8 * (len(start) // 2)

@@ -1,0 +1,52 @@
+"""TUM trajectories: ``timestamp tx ty tz qx qy qz qw`` on each line, ``#`` for comments [1]_.
+
+The format says neither which axis is up nor where the device faces, so both are taken as ours
+unless the user says otherwise. Timestamps are often seconds since 1970; the clock here starts
+with the first row, and what it read there is kept as ``clock_zero_s``.
+
+References
+----------
+.. [1] J. Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from smd.formats.frame import SourceFrame
+from smd.formats.native import ONLY_DEVICE
+from smd.formats.table import cells, is_row, line_of_row, number, read_table
+from smd.formats.tracks import Content, Track
+
+COLUMNS = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
+
+
+def matches(head: str) -> bool:
+    """Return whether a text's first row is numbers between white space."""
+    row = cells(next((line for line in head.split("\n") if is_row(line)), ""), None)
+    try:
+        return len(row) > 1 and all(number(cell) is not None for cell in row)
+    except ValueError:
+        return False
+
+
+def read(text: str, name: str) -> Content:
+    """Return the one track of a TUM trajectory.
+
+    Raises
+    ------
+    RecordingError
+        If a row does not hold eight numbers.
+    """
+    lines = text.split("\n")
+    values = read_table(name, lines, 0, None, COLUMNS, {})
+    track = Track(
+        device=ONLY_DEVICE,
+        time_s=values[:, 0] - values[0, 0],
+        position=values[:, 1:4],
+        quaternion=values[:, 4:8],
+        place=partial(line_of_row, lines, 0),
+    )
+    return Content(
+        (track,), SourceFrame.ours(), metadata={"clock_zero_s": repr(values[0, 0].item())}
+    )
