@@ -1,0 +1,199 @@
+"""The process that draws a filmstrip: ``python -m exporters.strip USD PNG ROWS``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from exporters.figures import Figure, Scene, read_scene
+from exporters.filmstrip import REFUSED
+from exporters.palette import RGB, action_colors
+from exporters.rendering import GRID_M, Stage, Trace, on_ground
+from exporters.viewpoint import fitted
+from laban import AXES, Effort
+from smd.errors import ExportError, SmdError
+from smd.files import replacing
+from smd.geometry.arrays import FloatArray
+
+COLUMNS = 8
+CELL_PX = (250, 290)
+LABEL_PX, HEADER_PX, GAP_PX, MARGIN_PX = 215, 44, 4, 8
+WINDOW_S = 1.5
+"""Length of a row where there is no Score."""
+
+_PATH_SAMPLES = 48
+_SIDE_RAD, _RAISED_RAD = np.radians(50.0), np.radians(14.0)
+_WINDOW_RGB: RGB = (0.12, 0.47, 0.71)
+_INK, _FAINT, _PAPER, _FRAME = (35, 38, 42), (96, 102, 110), (250, 250, 250), (205, 208, 213)
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """A stretch of one figure's performance; ``action`` is None where there is no Score."""
+
+    action: str | None
+    figure: int
+    start_s: float
+    end_s: float
+    effort: Effort
+    rgb: RGB
+
+
+def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
+    """Draw the filmstrip; see `exporters.filmstrip.write_filmstrip`."""
+    scene = read_scene(usd_path)
+    every = list(_rows(scene))
+    rows = every[:most_rows]
+    stage = Stage(CELL_PX, [(figure.triangles, figure.point_rgb) for figure in scene.figures])
+    width = LABEL_PX + COLUMNS * (CELL_PX[0] + GAP_PX) + MARGIN_PX
+    sheet = Image.new(
+        "RGB", (width, HEADER_PX + len(rows) * (CELL_PX[1] + GAP_PX) + GAP_PX), _PAPER
+    )
+    pen = ImageDraw.Draw(sheet)
+    pen.text((MARGIN_PX, 10), _header(usd_path, scene, rows, len(every)), _INK, _font(20))
+    for index, row in enumerate(rows):
+        top = HEADER_PX + index * (CELL_PX[1] + GAP_PX)
+        cells, travel_m, width_m = _draw_row(scene, row, stage)
+        _label(pen, top, scene, row, travel_m, width_m)
+        for column, (time_s, cell) in enumerate(cells):
+            left = LABEL_PX + column * (CELL_PX[0] + GAP_PX)
+            sheet.paste(Image.fromarray(cell), (left, top))
+            pen.rectangle((left, top, left + CELL_PX[0], top + CELL_PX[1]), outline=_FRAME)
+            pen.text((left + 7, top + 5), f"{time_s:.2f} s", _FAINT, _font(13))
+    stage.close()
+    with replacing(png_path) as temporary:
+        sheet.save(temporary, format="PNG")
+
+
+def _rows(scene: Scene) -> Iterator[Row]:
+    """Yield the phrases in time order, or time windows of every figure where there are none."""
+    names = [figure.name for figure in scene.figures]
+    if scene.score is not None and any(part.phrases for part in scene.score.performers):
+        colors = action_colors(scene.score)
+        phrases = [
+            Row(p.action, names.index(part.device), p.start_s, p.end_s, p.effort, colors[p.action])
+            for part in scene.score.performers
+            if part.device in names
+            for p in part.phrases
+            if p.end_s > scene.first_s and p.start_s < scene.last_s
+        ]
+        yield from sorted(phrases, key=lambda row: (row.start_s, row.figure))
+        return
+    count = max(1, int(np.ceil((scene.last_s - scene.first_s) / WINDOW_S)))
+    edges = np.linspace(scene.first_s, scene.last_s, count + 1)
+    for start_s, end_s in pairwise(edges.tolist()):
+        for index in range(len(names)):
+            yield Row(None, index, start_s, end_s, Effort(), _WINDOW_RGB)
+
+
+def _draw_row(
+    scene: Scene, row: Row, stage: Stage
+) -> tuple[list[tuple[float, NDArray[np.uint8]]], float, float]:
+    """Return a row's times and pictures, how far the body goes and how wide a picture is."""
+    figure = scene.figures[row.figure]
+    times_s = np.linspace(row.start_s, row.end_s, COLUMNS)
+    codes = [scene.time_code(time_s) for time_s in times_s.tolist()]
+    bodies = [figure.points_m(code) for code in codes]
+    path = _body_path(scene, figure, row)
+    viewpoint = fitted(
+        np.concatenate([*bodies, on_ground(path)]),
+        _towards_camera(figure, codes),
+        aspect=CELL_PX[0] / CELL_PX[1],
+    )
+    stage.look_from(viewpoint, reach_m=6.0 + 4.0 * viewpoint.width_m)
+    pictures = []
+    for column, (time_s, body) in enumerate(zip(times_s.tolist(), bodies, strict=True)):
+        stage.draw_traces(_traces(path, column / (COLUMNS - 1), row.rgb))
+        pictures.append((time_s, stage.picture({row.figure: body})))
+    travel_m = float(np.linalg.norm(np.diff(path[:, [0, 2]], axis=0), axis=1).sum())
+    return pictures, travel_m, viewpoint.width_m
+
+
+def _body_path(scene: Scene, figure: Figure, row: Row) -> FloatArray:
+    """Return where the middle of the body's joints goes, ``(n, 3)``."""
+    times_s = np.linspace(row.start_s, row.end_s, _PATH_SAMPLES).tolist()
+    return np.array([figure.joints_m(scene.time_code(t)).mean(axis=0) for t in times_s])
+
+
+def _towards_camera(figure: Figure, codes: list[float]) -> FloatArray:
+    """Return the direction from the body to a camera at its front left, a little above it."""
+    front = np.sum([figure.front(code) for code in codes], axis=0)
+    heading = np.arctan2(front[0], front[2]) + _SIDE_RAD
+    level = np.cos(_RAISED_RAD)
+    return np.array([level * np.sin(heading), np.sin(_RAISED_RAD), level * np.cos(heading)])
+
+
+def _traces(path: FloatArray, done: float, rgb: RGB) -> list[Trace]:
+    """Return the whole path on the ground, pale, and the part gone so far, in full colour."""
+    ground = on_ground(path)
+    pale = tuple(0.45 * c + 0.55 for c in rgb)
+    traces = [Trace(ground, (pale[0], pale[1], pale[2]), 2.0)]
+    gone = round(done * (len(path) - 1)) + 1
+    if gone > 1:
+        raised = ground[:gone] + np.array([0.0, 0.004, 0.0])
+        traces.append(Trace(raised, rgb, 3.5))
+    return traces
+
+
+def _header(path: Path, scene: Scene, rows: list[Row], count: int) -> str:
+    """Say what the sheet shows: how many of what, and when."""
+    kind = "time window" if rows[0].action is None else "phrase"
+    shown = f"the first {len(rows)} of " if len(rows) < count else ""
+    joints = scene.figures[0].joint_count
+    return (
+        f"{path.name}    {_counted(len(scene.figures), 'character')}, {joints} joints"
+        f"    {scene.first_s:.2f} to {scene.last_s:.2f} s    {shown}{_counted(count, kind)}"
+        f"    grid {GRID_M:g} m"
+    )
+
+
+def _counted(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def _label(
+    pen: ImageDraw.ImageDraw, top: int, scene: Scene, row: Row, travel_m: float, width_m: float
+) -> None:
+    """Write what a row shows to its left."""
+    color = tuple(round(255 * c) for c in row.rgb)
+    pen.rectangle((MARGIN_PX, top + 8, MARGIN_PX + 5, top + 34), fill=color)
+    pen.text((MARGIN_PX + 13, top + 6), row.action or "no Score", _INK, _font(22))
+    lines = [scene.figures[row.figure].name] if len(scene.figures) > 1 else []
+    lines.append(f"{row.start_s:.2f} to {row.end_s:.2f} s")
+    lines += [
+        f"{axis} {value:+.2f}" for axis in AXES if (value := getattr(row.effort, axis)) is not None
+    ]
+    lines += [f"body goes {travel_m:.2f} m", f"cell {width_m:.1f} m wide"]
+    for index, line in enumerate(lines):
+        pen.text((MARGIN_PX + 13, top + 40 + 22 * index), line, _FAINT, _font(16))
+
+
+def _font(size_px: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+    return ImageFont.load_default(size_px)
+
+
+def main(arguments: list[str]) -> int:
+    """Draw, and say in one line on the standard error what went wrong."""
+    usd_path, png_path, rows = arguments
+    try:
+        draw_filmstrip(Path(usd_path), Path(png_path), int(rows))
+    except SmdError as error:
+        print(error, file=sys.stderr)
+        return REFUSED
+    except (RuntimeError, OSError) as error:
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        message = ExportError(f"{png_path}: this machine cannot render: {reason}")
+        print(message, file=sys.stderr)
+        return REFUSED
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
