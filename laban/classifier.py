@@ -1,0 +1,112 @@
+"""Naive Bayes for two classes, and how relevant a feature is to telling them apart [1]_.
+
+The two classes of an axis are its poles: *low* (sustained, light, …) and *high* (sudden,
+strong, …). Products of densities are sums of logarithms here: 50 factors would underflow.
+
+References
+----------
+.. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019, sections 5.3, 5.4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from laban.motion import FloatArray
+
+BoolArray = NDArray[np.bool_]
+
+VARIANCE_FLOOR = 1e-9
+"""Added to every variance, as a share of the largest feature's: a feature that is constant
+within a class would else decide alone. scikit-learn's default."""
+
+
+def relevance(features: FloatArray, high: BoolArray) -> FloatArray:
+    """Return each feature's variance between the classes over that within them (eq. 2 to 5).
+
+    Parameters
+    ----------
+    features
+        ``(n, d)``.
+    high
+        ``(n,)``, true for the high pole; both classes occur.
+
+    Returns
+    -------
+    ``(d,)`` not negative; 0 for a feature that is the same everywhere.
+    """
+    share = np.array([np.mean(~high), np.mean(high)])[:, None]
+    mean, variance = _moments(features, high)
+    between = np.sum(share * (mean - features.mean(axis=0)) ** 2, axis=0)
+    within = np.sum(share * variance, axis=0)
+    tiny = np.finfo(np.float64).tiny
+    return np.asarray(between / np.maximum(within, tiny))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NaiveBayes:
+    """Two classes, each with independent Gaussian features.
+
+    Attributes
+    ----------
+    mean, variance : (2, d), row 0 for the low class and row 1 for the high; variances positive.
+    prior_high : chance of the high class before anything is seen, in (0, 1).
+    """
+
+    mean: FloatArray
+    variance: FloatArray
+    prior_high: float
+
+    def log_odds_terms(self, features: FloatArray) -> FloatArray:
+        """Return what each feature adds to the log odds of the high class, ``(…, d)``."""
+        spread = (features[..., None, :] - self.mean) ** 2 / self.variance + np.log(self.variance)
+        return np.asarray(0.5 * (spread[..., 0, :] - spread[..., 1, :]))
+
+    def log_odds(self, features: FloatArray) -> FloatArray:
+        """Return ``log P(high | features) - log P(low | features)`` of ``(…, d)``."""
+        return self.log_odds_terms(features).sum(axis=-1) + self.prior_log_odds
+
+    @property
+    def prior_log_odds(self) -> float:
+        """The log odds of the high class before anything is seen."""
+        return float(np.log(self.prior_high) - np.log1p(-self.prior_high))
+
+    def only(self, columns: NDArray[np.int64]) -> NaiveBayes:
+        """Return the same classifier for some of its features, in the given order."""
+        return NaiveBayes(self.mean[:, columns], self.variance[:, columns], self.prior_high)
+
+
+def fit_naive_bayes(features: FloatArray, high: BoolArray) -> NaiveBayes:
+    """Fit class means, variances (of the population) and the prior of ``(n, d)`` features."""
+    mean, variance = _moments(features, high)
+    floor = VARIANCE_FLOOR * float(features.var(axis=0).max())
+    floor = max(floor, float(np.finfo(np.float64).tiny))
+    return NaiveBayes(mean, variance + floor, float(np.mean(high)))
+
+
+def telling_range(bayes: NaiveBayes, seen: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the lowest and highest value of each feature that is to be believed, each ``(d,)``.
+
+    Beyond what training has shown, ``seen (n, d)``, a Gaussian's tail says nothing. Where the
+    classes differ in variance it turns round as well: the wider class wins on both sides, and the
+    slowest movement of all would count as sudden again because sudden ones vary more. Evidence is
+    a parabola of the feature; between its turning point and the means it grows one way only.
+    """
+    lowest, highest = seen.min(axis=0), seen.max(axis=0)
+    weight = 1.0 / bayes.variance
+    bend = weight[0] - weight[1]
+    slope = weight[0] * bayes.mean[0] - weight[1] * bayes.mean[1]
+    turning = np.divide(slope, bend, out=np.full_like(bend, np.nan), where=bend != 0)
+    below, above = turning < bayes.mean.min(axis=0), turning > bayes.mean.max(axis=0)
+    lowest = np.where(below, np.maximum(lowest, turning), lowest)
+    highest = np.where(above, np.minimum(highest, turning), highest)
+    return lowest, np.maximum(lowest, highest)
+
+
+def _moments(features: FloatArray, high: BoolArray) -> tuple[FloatArray, FloatArray]:
+    """Return the mean and variance of each class, each ``(2, d)``."""
+    classes = (features[~high], features[high])
+    return np.stack([c.mean(axis=0) for c in classes]), np.stack([c.var(axis=0) for c in classes])

@@ -1,0 +1,125 @@
+"""``smd laban``: read Laban Effort, and learn to read it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from smd.cli import reading
+from smd.cli.batch import for_each
+
+if TYPE_CHECKING:
+    from smd.effort import ManifestRow
+
+app = typer.Typer(no_args_is_help=True)
+
+Model = Annotated[
+    Path | None, typer.Option("--model", help="A trained model. Default: the shipped one.")
+]
+
+
+@app.callback()
+def _laban() -> None:
+    pass
+
+
+@app.command()
+def classify(
+    recordings: reading.Recordings,
+    model: Model = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print a JSON list and nothing else.")
+    ] = False,
+    up: reading.Up = None,
+    front: reading.Front = None,
+    handedness: reading.Handedness = None,
+    unit: reading.Unit = None,
+    quaternion: reading.Quaternion = None,
+    mount: reading.Mount = None,
+) -> None:
+    """Read the Effort of recordings, each doodle taken as one movement."""
+    from laban import AXES, load_effort_model
+    from smd.effort import recording_efforts
+
+    reader = load_effort_model(model)
+    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
+    files = list(reading.recording_files(recordings))
+    rows: list[dict[str, Any]] = []
+
+    def one(_: int, file: Path) -> None:
+        for doodle, effort in recording_efforts(options.read(file), reader):
+            values = {axis: getattr(effort, axis) for axis in AXES}
+            known = {axis: round(v, 3) for axis, v in values.items() if v is not None}
+            start_s, end_s = round(doodle.time_s[0], 3), round(doodle.time_s[-1], 3)
+            rows.append(
+                {
+                    "file": str(file),
+                    "device": doodle.device,
+                    "start_s": start_s,
+                    "end_s": end_s,
+                    "effort": known,
+                }
+            )
+            if not as_json:
+                shown = "  ".join(f"{axis} {value:+.2f}" for axis, value in known.items())
+                where = f"{file}  {doodle.device} {start_s:.2f} – {end_s:.2f} s"
+                typer.echo(f"{where}  {shown or 'too short or too still to read'}")
+
+    try:
+        for_each(files, one)
+    finally:
+        if as_json:
+            typer.echo(json.dumps(rows))
+
+
+@app.command()
+def train(
+    output: Annotated[Path, typer.Option("-o", "--output", help="Write the model here.")],
+    manifest: Annotated[
+        Path | None,
+        typer.Argument(
+            help="CSV of takes: file,time,weight,space,flow,performer; Effort words, neutral, or "
+            "nothing where not labelled.",
+        ),
+    ] = None,
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="Learn from simulated people: the shipped model.")
+    ] = False,
+    up: reading.Up = None,
+    front: reading.Front = None,
+    handedness: reading.Handedness = None,
+    unit: reading.Unit = None,
+    quaternion: reading.Quaternion = None,
+    mount: reading.Mount = None,
+) -> None:
+    """Learn to read Effort from labelled takes, or from simulated people.
+
+    Prints how often each axis is told right on performers that were left out.
+    """
+    from laban.model import save_effort_model
+    from smd.effort import report_lines, train_manifest, train_simulated
+    from smd.files import replacing
+
+    if simulated == (manifest is not None):
+        raise typer.BadParameter("expected either a MANIFEST or --simulated")
+    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
+    with replacing(output) as temporary:
+        if manifest is None:
+            training = train_simulated()
+        else:
+            training = train_manifest(manifest, options.read, progress=_progress)
+        save_effort_model(training.model, temporary)
+    typer.echo("\n".join(report_lines(training)))
+    typer.echo(f"written: {output}")
+
+
+def _progress(rows: list[ManifestRow]) -> Iterator[ManifestRow]:
+    """Yield the takes, showing on a terminal how many have been read."""
+    hidden = not sys.stderr.isatty()
+    with typer.progressbar(rows, hidden=hidden, file=sys.stderr) as bar:
+        yield from bar

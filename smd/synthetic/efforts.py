@@ -1,0 +1,280 @@
+"""Doodles of simulated people who play with a chosen Effort: what the shipped reader learns from.
+
+A take is one gesture of `smd.synthetic.strokes`, the same that asks for an action, whose strokes
+are shaped by Effort as the transfer of Effort to animation shapes clips [1]_ (section 6.4), so
+that what is read from the hand and what is written to the character mean the same:
+
+- **Time**: a sudden stroke is short and has its attack early; a sustained one takes long and has
+  its peak in the middle. How far it goes stays.
+- **Weight**: a strong stroke goes further in the same time, its force in a short burst, and is
+  stopped dead, so that the braced limb rings; the tense muscle trembles more. A light stroke goes
+  less far at a more even speed, without recoil.
+
+At 0 on both axes a stroke is the minimum-jerk one that the gesture has anyway.
+
+People differ in what `smd.synthetic.strokes.Person` says, and in size of stage, in how far they
+go in acting out an Effort and in how they lean when they mean nothing. All numbers are in
+`SHAPING` and `SPREAD`, in the open; they are our reading and not measurements of people.
+
+References
+----------
+.. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from laban import Effort
+from smd.doodle import Doodle
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import (
+    IDENTITY_XYZW,
+    multiply,
+    quaternion_about,
+    quaternion_from_rotvec,
+    rotate,
+)
+from smd.synthetic import strokes
+from smd.synthetic.strokes import GESTURES, RATE_HZ, Person, Stroke, gesture, tracker_times
+
+
+@dataclass(frozen=True, slots=True)
+class Shaping:
+    """What Effort does to a stroke, per unit of Time or Weight.
+
+    Attributes
+    ----------
+    duration_per_time : a stroke lasts ``exp(duration_per_time * time)`` times as long.
+    attack_per_sudden : time runs as ``1 - (1 - u)^(1 + attack_per_sudden * time)`` of itself.
+    size_per_weight : a stroke goes ``exp(size_per_weight * weight)`` times as far.
+    turn_per_weight : and turns ``exp(turn_per_weight * weight)`` times as far.
+    burst_per_strong : time runs as a beta distribution of parameters 1 plus this times weight.
+    cruise_per_light : share of a light stroke that is added to its part of even speed.
+    recoil_per_strong : first swing of the ringing after a stroke, as a share of its size.
+    recoil_hz, recoil_decay_s : of that ringing.
+    tremor_per_weight : tremor is ``exp(tremor_per_weight * weight)`` times as large.
+    """
+
+    duration_per_time: float = -0.6
+    attack_per_sudden: float = 0.6
+    size_per_weight: float = 0.5
+    turn_per_weight: float = 0.25
+    burst_per_strong: float = 0.6
+    cruise_per_light: float = 0.2
+    recoil_per_strong: float = 0.08
+    recoil_hz: float = 5.0
+    recoil_decay_s: float = 0.12
+    tremor_per_weight: float = 0.4
+
+
+SHAPING = Shaping()
+"""The shaping from which the shipped model learns."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """How people and takes differ beyond `strokes.Person`: standard deviations and ranges.
+
+    Attributes
+    ----------
+    stage : between people, of the logarithm of size: some play on a larger table.
+    acting : range of how far a person goes in acting out an Effort.
+    leaning : between people, of the Effort played where none is meant, per axis.
+    take_effort : between takes of one person, per axis.
+    take_size, take_pace : between takes of one person, of the logarithm.
+    rest_s : range of the stillness before and after.
+    sensor_m, sensor_rad : noise of a sample of the tracker.
+    """
+
+    stage: float = 0.2
+    acting: tuple[float, float] = (0.7, 1.1)
+    leaning: float = 0.12
+    take_effort: float = 0.12
+    take_size: float = 0.12
+    take_pace: float = 0.12
+    rest_s: tuple[float, float] = (0.03, 0.15)
+    sensor_m: float = 2e-4
+    sensor_rad: float = 2e-3
+
+
+SPREAD = Spread()
+"""The differences from which the shipped model learns."""
+
+
+@dataclass(frozen=True, slots=True)
+class Player:
+    """Somebody who can play with Effort.
+
+    Attributes
+    ----------
+    name : of the player.
+    habits : how the player moves anyway.
+    acting : how far the player goes in acting out an Effort; 1 is all the way.
+    time_leaning, weight_leaning : the Effort played where none is meant.
+    """
+
+    name: str
+    habits: Person
+    acting: float = 1.0
+    time_leaning: float = 0.0
+    weight_leaning: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LabelledTake:
+    """One take: which gesture was played, the Effort that was meant, by whom, and the doodle."""
+
+    action: str
+    effort: Effort
+    player: str
+    doodle: Doodle
+
+
+def simulated_player(name: str, rng: np.random.Generator) -> Player:
+    """Return a player drawn at random."""
+    habits = strokes.simulated_person(rng)
+    return Player(
+        name=name,
+        habits=replace(habits, size=habits.size * float(np.exp(rng.normal(0.0, SPREAD.stage)))),
+        acting=float(rng.uniform(*SPREAD.acting)),
+        time_leaning=float(rng.normal(0.0, SPREAD.leaning)),
+        weight_leaning=float(rng.normal(0.0, SPREAD.leaning)),
+    )
+
+
+def simulated_take(action: str, effort: Effort, player: Player, rng: np.random.Generator) -> Doodle:
+    """Return the doodle of a player who plays the gesture of one action with the given Effort.
+
+    Parameters
+    ----------
+    action
+        A name in `strokes.GESTURES`.
+    effort
+        Time and Weight as meant; an axis that is None is not meant, as is 0.
+    player
+        Who plays.
+    rng
+        Source of everything that differs between takes, and of where the player stands.
+
+    Raises
+    ------
+    DoodleError
+        If there is no such action.
+    """
+    time, weight = (
+        player.acting * (meant or 0.0) + leaning + float(rng.normal(0.0, SPREAD.take_effort))
+        for meant, leaning in (
+            (effort.time, player.time_leaning),
+            (effort.weight, player.weight_leaning),
+        )
+    )
+    size = player.habits.size * float(np.exp(rng.normal(0.0, SPREAD.take_size)))
+    pace = player.habits.pace * float(np.exp(rng.normal(0.0, SPREAD.take_pace)))
+    played = gesture(action, size=size, pace=pace, person=player.habits)
+    slower = float(np.exp(SHAPING.duration_per_time * time))
+    before_s, after_s = rng.uniform(*SPREAD.rest_s, 2)
+    end_s = before_s + slower * played.duration_s + after_s
+    time_s = tracker_times(0.0, end_s, RATE_HZ, rng)
+
+    moved, orientation = np.zeros((len(time_s), 3)), np.tile(IDENTITY_XYZW, (len(time_s), 1))
+    for stroke in played.strokes:
+        since_s = time_s - before_s - slower * stroke.start_s
+        done = _course(since_s, slower * stroke.duration_s, stroke, time, weight)[:, None]
+        moved += done * np.exp(SHAPING.size_per_weight * weight) * np.asarray(stroke.move_m)
+        turn = done * np.exp(SHAPING.turn_per_weight * weight) * np.asarray(stroke.turn_rad)
+        orientation = multiply(orientation, quaternion_from_rotvec(turn))
+    return _tracked(time_s, moved, orientation, player, weight, rng)
+
+
+def labelled_takes(*, people: int, repeats: int, seed: int) -> Iterator[LabelledTake]:
+    """Yield takes of simulated players over every pairing of Time and Weight.
+
+    Both axes take the values -1, 0 and 1: both poles and neutral, in all nine pairs.
+
+    Parameters
+    ----------
+    people
+        How many players there are.
+    repeats
+        Takes per player and pair; their actions are drawn, none again before all were played.
+    seed
+        The same seed yields the same takes.
+    """
+    rng = np.random.default_rng(seed)
+    actions = tuple(GESTURES)
+    for i in range(people):
+        player = simulated_player(f"player{i + 1:02d}", rng)
+        for time in (-1.0, 0.0, 1.0):
+            for weight in (-1.0, 0.0, 1.0):
+                order = rng.permutation(len(actions))
+                for k in range(repeats):
+                    action = actions[order[k % len(actions)]]
+                    effort = Effort(time=time, weight=weight)
+                    doodle = simulated_take(action, effort, player, rng)
+                    yield LabelledTake(action, effort, player.name, doodle)
+
+
+def _course(
+    since_s: FloatArray, duration_s: float, stroke: Stroke, time: float, weight: float
+) -> FloatArray:
+    """Return how much of a stroke is done, 0 to 1 and, where it rings, about 1, ``(n,)``."""
+    from scipy.special import betainc
+
+    sudden, strong, light = max(time, 0.0), max(weight, 0.0), max(-weight, 0.0)
+    u = np.clip(since_s / duration_s, 0.0, 1.0)
+    u = 1.0 - (1.0 - u) ** (1.0 + SHAPING.attack_per_sudden * sudden)
+    burst = 1.0 + SHAPING.burst_per_strong * strong
+    cruise = stroke.cruise + SHAPING.cruise_per_light * light * (1.0 - stroke.cruise)
+    t = np.maximum(since_s - duration_s, 0.0)
+    ringing = np.sin(2.0 * np.pi * SHAPING.recoil_hz * t) * np.exp(-t / SHAPING.recoil_decay_s)
+    return (
+        strokes.progress(betainc(burst, burst, u), cruise)
+        + SHAPING.recoil_per_strong * strong * ringing
+    )
+
+
+def _tracked(
+    time_s: FloatArray,
+    moved: FloatArray,
+    orientation: FloatArray,
+    player: Player,
+    weight: float,
+    rng: np.random.Generator,
+) -> Doodle:
+    """Return what a tracker reports of a movement in the player's hand, somewhere in the room.
+
+    The hand holds the prop askew and beside its centre, and trembles, as in `strokes.Take`.
+    """
+    habits = player.habits
+    tremor = float(np.exp(SHAPING.tremor_per_weight * weight))
+    unrest = _waves(time_s, habits.wobble_rad, 0.3, 1.5, rng)
+    unrest = unrest + _waves(time_s, tremor * habits.tremor_rad, 8.0, 12.0, rng)
+    unrest = unrest + rng.normal(0.0, SPREAD.sensor_rad, moved.shape)
+    swing = 0.3 * np.tanh(moved @ np.asarray(habits.swing_rad_per_m).T / 0.3)
+    askew = quaternion_from_rotvec([habits.askew_rad[0], 0.0, habits.askew_rad[1]])
+    held = multiply(multiply(orientation, askew), quaternion_from_rotvec(swing + unrest))
+    position = moved + rotate(held, np.broadcast_to(np.asarray(habits.grip_m), moved.shape))
+    position = position + _waves(time_s, habits.drift_m, 0.1, 0.6, rng)
+    position = position + _waves(time_s, tremor * habits.tremor_m, 8.0, 12.0, rng)
+    position = position + rng.normal(0.0, SPREAD.sensor_m, moved.shape)
+    facing = quaternion_about([0.0, 1.0, 0.0], rng.uniform(-np.pi, np.pi))
+    return Doodle(
+        time_s,
+        rotate(facing, position) + rng.normal(0.0, 0.3, 3),
+        multiply(facing, held),
+        device=player.name,
+    )
+
+
+def _waves(
+    time_s: FloatArray, amplitude: float, low_hz: float, high_hz: float, rng: np.random.Generator
+) -> FloatArray:
+    """Return unrest of an amplitude between two rates, ``(n, 3)``."""
+    rates_hz = rng.uniform(low_hz, high_hz, (3, 5))
+    phases = rng.uniform(0.0, 2.0 * np.pi, (3, 5))
+    waves = np.sin(2.0 * np.pi * rates_hz * time_s[:, None, None] + phases)
+    return np.asarray(amplitude / np.sqrt(5.0) * waves.sum(axis=-1))
