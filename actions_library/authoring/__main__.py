@@ -1,0 +1,39 @@
+"""Write the shipped library: ``python -m actions_library.authoring FOLDER``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from actions_library.authoring.actions import HUMANOID_ACTIONS
+from actions_library.authoring.body import humanoid_character
+from actions_library.authoring.clips import humanoid_clips
+from actions_library.library import Library, write_library
+from smd.errors import SmdError
+
+
+def write_humanoid(folder: Path) -> Library:
+    """Make the humanoid, its clips and its actions, and write them as a library."""
+    character = humanoid_character()
+    clips = {clip.name: clip for clip in humanoid_clips(character.skeleton)}
+    return write_library(
+        folder, name="humanoid", character=character, clips=clips, actions=HUMANOID_ACTIONS
+    )
+
+
+def main(arguments: list[str]) -> int:
+    """Write the library into the folder named, and say what was made."""
+    if len(arguments) != 1:
+        print("usage: python -m actions_library.authoring FOLDER", file=sys.stderr)
+        return 2
+    try:
+        library = write_humanoid(Path(arguments[0]))
+    except SmdError as error:
+        print(error, file=sys.stderr)
+        return 3
+    print(f"{library.folder}: {', '.join(action.name for action in library.actions)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
