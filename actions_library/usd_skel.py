@@ -25,7 +25,7 @@ from smd.character.character import MAX_INFLUENCES, Character, Mesh
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import matrix_from_quaternion, normalized, quaternion_from_matrix
+from smd.geometry.rotations import matrix_from_quaternion, normalized
 
 SKELETON, ANIMATION, MATERIALS = "Skeleton", "Animation", "Materials"
 """Names of what lies under a character's SkelRoot, beside its meshes."""
@@ -233,6 +233,12 @@ def _row_matrices(matrices: FloatArray) -> Vt.Matrix4dArray:
     return Vt.Matrix4dArray.FromNumpy(transposed)
 
 
+def _rotation_xyzw(matrix: Gf.Matrix4d) -> list[float]:
+    """Return a rigid transform's rotation; by USD, since SciPy's takes a while to load."""
+    quaternion = matrix.ExtractRotationQuat()
+    return [*quaternion.GetImaginary(), quaternion.GetReal()]
+
+
 def _read_skeleton(prim: UsdSkel.Skeleton) -> Skeleton:
     joints = prim.GetJointsAttr().Get()
     roles = prim.GetPrim().GetCustomDataByKey(_ROLES)
@@ -248,7 +254,9 @@ def _read_skeleton(prim: UsdSkel.Skeleton) -> Skeleton:
     return Skeleton(
         joints=tuple(names or (path.rsplit("/", 1)[-1] for path in joints)),
         parents=np.array(UsdSkel.Topology(joints).GetParentIndices()),
-        rest_rotation_xyzw=quaternion_from_matrix(rest[:, :3, :3]),
+        rest_rotation_xyzw=np.array(
+            [_rotation_xyzw(m) for m in prim.GetRestTransformsAttr().Get()]
+        ),
         rest_translation_m=rest[:, :3, 3],
         world_from_bind=bind,
         roles=tuple(roles),
