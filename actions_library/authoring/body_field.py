@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.ndimage import map_coordinates
 
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import normalized
 
 FAR_M = 1.0
@@ -25,6 +25,8 @@ MARGIN_M = 0.06
 """Shapes are evaluated this far around their bounds: more than any blend reaches."""
 
 Box = tuple[FloatArray, FloatArray]
+Distances = NDArray[np.floating]
+Combine = Callable[[Distances, Distances], Distances]
 Point = tuple[float, float, float]
 
 
@@ -157,7 +159,25 @@ class Loft:
         return np.hypot(away, radius * (low + high)) - radius
 
 
-def smooth_min(a: FloatArray, b: FloatArray, reach_m: float) -> FloatArray:
+@dataclass(frozen=True)
+class HalfSpace:
+    """Everything behind a plane."""
+
+    point: Point
+    normal: Point
+
+    def bounds(self) -> Box:
+        """Return corners beyond any grid."""
+        return np.full(3, -np.inf), np.full(3, np.inf)
+
+    def distance(self, x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
+        """Return the distance in front of the plane."""
+        n = normalized(self.normal)
+        px, py, pz = (c - o for c, o in zip((x, y, z), self.point, strict=True))
+        return np.asarray(px * n[0] + py * n[1] + pz * n[2])
+
+
+def smooth_min(a: Distances, b: Distances, reach_m: float) -> Distances:
     """Return the union of two distances, filleted where they differ by less than ``reach_m``.
 
     A cubic polynomial: twice continuously differentiable, so that highlights do not break.
@@ -168,54 +188,56 @@ def smooth_min(a: FloatArray, b: FloatArray, reach_m: float) -> FloatArray:
     return np.minimum(a, b) - h**3 * reach_m / 6.0
 
 
-def smooth_max(a: FloatArray, b: FloatArray, reach_m: float) -> FloatArray:
+def smooth_max(a: Distances, b: Distances, reach_m: float) -> Distances:
     """Return the intersection of two distances, filleted as in `smooth_min`."""
     return -smooth_min(-a, -b, reach_m)
 
 
 class Field:
-    """Distances at the nodes of an even grid.
+    """Distances at the nodes of an even grid; nodes of all fields of one step coincide.
 
     Attributes
     ----------
-    origin_m : (3,) the first node.
     step_m : distance between nodes.
-    values : (nx, ny, nz) signed distance in metres.
+    first : (3,) the first node, counted in steps from the world's origin.
+    values : (nx, ny, nz) float32, signed distance in metres.
     """
 
-    def __init__(self, low: ArrayLike, high: ArrayLike, step_m: float) -> None:
-        low, high = np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
-        self.origin_m = low
+    def __init__(self, box: tuple[ArrayLike, ArrayLike], step_m: float) -> None:
+        low, high = (np.asarray(corner, dtype=np.float64) / step_m for corner in box)
         self.step_m = step_m
-        size = np.ceil((high - low) / step_m).astype(int) + 1
-        self.values: FloatArray = np.full(tuple(size), FAR_M)
+        self.first = np.floor(low + 1e-9).astype(int)
+        size = np.ceil(high - 1e-9).astype(int) - self.first + 1
+        self.values: Distances = np.full(tuple(size), FAR_M, dtype=np.float32)
 
-    def like(self) -> Field:
-        """Return an empty field on the same grid."""
-        high = self.origin_m + (np.array(self.values.shape) - 1) * self.step_m
-        return Field(self.origin_m, high, self.step_m)
+    @property
+    def origin_m(self) -> FloatArray:
+        """The first node's place."""
+        return self.first * self.step_m
 
-    def _block(self, box: Box) -> tuple[slice, slice, slice]:
-        """Return the nodes within a margin of a box."""
-        first = np.floor((box[0] - MARGIN_M - self.origin_m) / self.step_m).astype(int)
-        last = np.ceil((box[1] + MARGIN_M - self.origin_m) / self.step_m).astype(int) + 1
-        first, last = np.maximum(first, 0), np.minimum(last, self.values.shape)
-        return tuple(slice(int(a), int(b)) for a, b in zip(first, last, strict=True))  # type: ignore[return-value]
+    @property
+    def box(self) -> Box:
+        """The first and the last node's places."""
+        last = self.first + np.array(self.values.shape) - 1
+        return self.origin_m, last * self.step_m
 
-    def _apply(
-        self,
-        shape: Shape,
-        combine: Callable[[FloatArray, FloatArray], FloatArray],
-    ) -> None:
+    def _block(self, first: IntArray, end: IntArray) -> tuple[slice, ...]:
+        """Return the part of the grid from node ``first`` to before ``end``, in its own count."""
+        first = np.clip(first - self.first, 0, self.values.shape)
+        end = np.clip(end - self.first, first, self.values.shape)
+        return tuple(slice(int(a), int(b)) for a, b in zip(first, end, strict=True))
+
+    def _apply(self, shape: Shape, combine: Combine) -> None:
         """Combine a shape's distance with the values around it."""
-        block = self._block(shape.bounds())
-        grid = [
-            self.origin_m[k] + self.step_m * np.arange(block[k].start, block[k].stop)
-            for k in range(3)
-        ]
-        distance = shape.distance(
-            grid[0][:, None, None], grid[1][None, :, None], grid[2][None, None, :]
+        low, high = shape.bounds()
+        first = np.floor((np.maximum(low, -9.0) - MARGIN_M) / self.step_m).astype(int)
+        end = np.ceil((np.minimum(high, 9.0) + MARGIN_M) / self.step_m).astype(int) + 1
+        block = self._block(first, end)
+        x, y, z = (
+            (self.step_m * (np.arange(part.start, part.stop) + start))
+            for part, start in zip(block, self.first, strict=True)
         )
+        distance = shape.distance(x[:, None, None], y[None, :, None], z[None, None, :])
         self.values[block] = combine(self.values[block], distance)
 
     def add(self, shape: Shape, reach_m: float) -> None:
@@ -226,25 +248,46 @@ class Field:
         """Take a shape away, rounding the rim over ``reach_m``."""
         self._apply(shape, lambda a, b: smooth_max(a, -b, reach_m))
 
-    def merge(self, other: Field, reach_m: float) -> None:
-        """Unite with a field on the same grid."""
-        self.values = smooth_min(self.values, other.values, reach_m)
+    def keep(self, shape: Shape, reach_m: float) -> None:
+        """Keep what lies inside a shape that reaches past the grid, rounding the rim."""
+        self._apply(shape, lambda a, b: smooth_max(a, b, reach_m))
+
+    def merge(self, other: Field, reach_m: float, grown_m: float = 0.0) -> None:
+        """Unite with another field of the same step, its solid grown by ``grown_m``."""
+        block = self._block(other.first, other.first + other.values.shape)
+        first = self.first + [part.start for part in block]
+        end = self.first + [part.stop for part in block]
+        theirs = other.values[other._block(first, end)] - np.float32(grown_m)
+        self.values[block] = smooth_min(self.values[block], theirs, reach_m)
 
     def sample(self, points_m: FloatArray) -> FloatArray:
-        """Return the distance at points ``(p, 3)``, linear between nodes."""
-        where = ((points_m - self.origin_m) / self.step_m).T
-        return np.asarray(map_coordinates(self.values, where, order=1, mode="nearest"))
+        """Return the distance at points ``(p, 3)``, linear between nodes, far off the grid."""
+        where = (points_m / self.step_m - self.first).T
+        values = map_coordinates(
+            self.values, where, order=1, mode="constant", cval=FAR_M, output=np.float64
+        )
+        return np.asarray(values)
 
     def slope(self, points_m: FloatArray) -> FloatArray:
-        """Return the gradient at points ``(p, 3)``, by differences over two nodes."""
+        """Return the gradient at points ``(p, 3)``, by differences over two nodes.
+
+        The grid's lowest x is taken as a plane of symmetry: there, the slope across it is 0.
+        """
         h = self.step_m
-        ends = [(self.sample(points_m + d) - self.sample(points_m - d)) for d in h * np.eye(3)]
+        low = self.origin_m[0]
+        ends = []
+        for d in h * np.eye(3):
+            before = points_m - d
+            before[:, 0] = low + np.abs(before[:, 0] - low)
+            ends.append(self.sample(points_m + d) - self.sample(before))
         return np.stack(ends, axis=-1) / (2.0 * h)
 
 
-def built(field: Field, shapes: Sequence[tuple[Shape, float]]) -> Field:
-    """Return a field on the same grid, the shapes united in order, each with its reach."""
-    out = field.like()
+def united(
+    box: tuple[ArrayLike, ArrayLike], step_m: float, shapes: Sequence[tuple[Shape, float]]
+) -> Field:
+    """Return a field of shapes united in order, each with its reach."""
+    field = Field(box, step_m)
     for shape, reach_m in shapes:
-        out.add(shape, reach_m)
-    return out
+        field.add(shape, reach_m)
+    return field

@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from actions_library.authoring.body_field import Field
 from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.rotations import normalized
 
 EVENING_ROUNDS = 12
 """Rounds of edge flips, tangential smoothing and projection; the shape is settled after ten."""
 
 
-def half_surface(field: Field, triangle_count: int) -> tuple[FloatArray, IntArray]:
+BEND = 0.05
+"""How much shorter than 1 the mean of the normals around a point is where it is half held."""
+
+CREASE_RAD = 0.6
+"""Triangles that meet at more than this angle meet at an edge of the shape."""
+
+Warp = Callable[[FloatArray], FloatArray]
+
+
+def half_surface(
+    field: Field, triangle_count: int, magnified: Warp | None = None
+) -> tuple[FloatArray, IntArray]:
     """Return the zero surface of a field whose first grid plane is a plane of symmetry.
 
     Parameters
@@ -22,6 +36,8 @@ def half_surface(field: Field, triangle_count: int) -> tuple[FloatArray, IntArra
         Distances, negative inside.
     triangle_count
         About how many triangles to keep; curved places keep more of them.
+    magnified
+        Moves points ``(p, 3)`` apart where more triangles than their size deserves are to stay.
 
     Returns
     -------
@@ -31,7 +47,7 @@ def half_surface(field: Field, triangle_count: int) -> tuple[FloatArray, IntArra
         Counter-clockwise seen from outside.
     """
     points, triangles = _polygonised(field)
-    points, triangles = _thinned(points, triangles, triangle_count)
+    points, triangles = _thinned(points, triangles, triangle_count, magnified)
     plane_m = field.origin_m[0]
     rim = np.unique(_rim_edges(triangles))
     points[rim, 0] = plane_m
@@ -67,7 +83,7 @@ def _polygonised(field: Field) -> tuple[FloatArray, IntArray]:
     image.SetSpacing(*(field.step_m,) * 3)
     # VTK's x runs fastest. Nodes exactly on the surface would give triangles without area.
     values = field.values.ravel(order="F")
-    values = np.where(np.abs(values) < 1e-7, 1e-7, values)
+    values = np.where(np.abs(values) < 1e-7, np.float32(1e-7), values)
     image.GetPointData().SetScalars(numpy_to_vtk(values))
     contour = vtkFlyingEdges3D()
     contour.SetInputData(image)
@@ -91,16 +107,30 @@ def _outward(points: FloatArray, field: Field, triangles: IntArray) -> IntArray:
 
 
 def _thinned(
-    points: FloatArray, triangles: IntArray, triangle_count: int
+    points: FloatArray, triangles: IntArray, triangle_count: int, magnified: Warp | None
 ) -> tuple[FloatArray, IntArray]:
-    """Return the surface with fewer triangles, by least quadric error."""
-    import pyvista as pv
+    """Return the surface with fewer triangles, by least quadric error where it is magnified.
 
-    mesh = pv.PolyData.from_regular_faces(points, triangles)
-    share = 1.0 - triangle_count / len(triangles)
-    if share > 0:
-        mesh = mesh.decimate(share, volume_preservation=True)
-    return np.asarray(mesh.points, dtype=np.float64), np.asarray(mesh.regular_faces, np.int64)
+    The points kept are the nearest ones of the surface given, so that no way back from the
+    magnified one is needed; evening out moves them on.
+    """
+    import pyvista as pv
+    from scipy.spatial import KDTree
+
+    seen = points if magnified is None else magnified(points)
+    mesh = pv.PolyData.from_regular_faces(seen, triangles)
+    mesh = mesh.decimate(max(0.0, 1.0 - triangle_count / len(triangles)), volume_preservation=True)
+    kept = np.asarray(mesh.regular_faces, dtype=np.int64)
+    rim = np.zeros(len(points), dtype=bool)
+    rim[_rim_edges(triangles)] = True
+    kept_rim = np.zeros(mesh.n_points, dtype=bool)
+    kept_rim[_rim_edges(kept)] = True
+    nearest = np.empty(mesh.n_points, dtype=np.int64)
+    for old, new in ((rim, kept_rim), (~rim, ~kept_rim)):
+        if new.any():
+            found = KDTree(seen[old]).query(np.asarray(mesh.points)[new])[1]
+            nearest[new] = np.flatnonzero(old)[found]
+    return points[nearest], kept
 
 
 def _rim_edges(triangles: IntArray) -> IntArray:
@@ -115,55 +145,76 @@ def _rim_edges(triangles: IntArray) -> IntArray:
 def _flipped(points: FloatArray, triangles: IntArray) -> IntArray:
     """Return the triangles after one sweep of Delaunay flips.
 
-    An edge is flipped where the two angles facing it sum to more than half a turn, unless the
-    two triangles fold against each other or the new edge exists already.
+    An edge is flipped where the two angles facing it sum to more than half a turn, unless its
+    triangles meet at an edge of the shape, would fold, or the new edge exists already.
     """
-    faces = [list(map(int, t)) for t in triangles]
-    side: dict[tuple[int, int], int] = {}
-    for f, (a, b, c) in enumerate(faces):
-        side[a, b] = side[b, c] = side[c, a] = f
-    for a, b in sorted(e for e in side if e[0] < e[1]):
-        if (a, b) not in side or (b, a) not in side:
+    faces = triangles.copy()
+    edges, left, right, c, d = _inner_edges(triangles)
+    a, b = edges.T
+    facing = _angle(points, a, c, b) + _angle(points, a, d, b)
+    old = [_unit_normal(points, a, b, c), _unit_normal(points, b, a, d)]
+    new = [_unit_normal(points, c, d, b), _unit_normal(points, d, c, a)]
+    smooth = (old[0] * old[1]).sum(axis=1) > np.cos(CREASE_RAD)
+    unfolded = (new[0] * new[1]).sum(axis=1) > np.cos(CREASE_RAD)
+    wanted = np.flatnonzero((facing > np.pi + 1e-6) & smooth & unfolded)
+    known = {(int(i), int(j)) for i, j in np.sort(edges, axis=1)}
+    known |= {(int(i), int(j)) for i, j in np.sort(_rim_edges(triangles), axis=1)}
+    touched = np.zeros(len(faces), dtype=bool)
+    for e in wanted[np.argsort(-facing[wanted], kind="stable")]:
+        made = (int(min(c[e], d[e])), int(max(c[e], d[e])))
+        if touched[left[e]] or touched[right[e]] or made in known:
             continue
-        left, right = side[a, b], side[b, a]
-        c = next(v for v in faces[left] if v not in (a, b))
-        d = next(v for v in faces[right] if v not in (a, b))
-        if (c, d) in side or (d, c) in side or not _better_flipped(points, a, b, c, d):
-            continue
-        faces[left], faces[right] = [c, d, b], [d, c, a]
-        del side[a, b], side[b, a]
-        side[c, d], side[d, b], side[b, c] = left, left, left
-        side[d, c], side[c, a], side[a, d] = right, right, right
-    return np.array(faces, dtype=np.int64)
+        known.add(made)
+        touched[[left[e], right[e]]] = True
+        faces[left[e]] = c[e], d[e], b[e]
+        faces[right[e]] = d[e], c[e], a[e]
+    return faces
 
 
-def _better_flipped(points: FloatArray, a: int, b: int, c: int, d: int) -> bool:
-    """Return whether triangles (a, b, c), (b, a, d) are worse than (c, d, b), (d, c, a)."""
-    pa, pb, pc, pd = points[a], points[b], points[c], points[d]
-    if _angle(pa, pc, pb) + _angle(pa, pd, pb) <= np.pi + 1e-6:
-        return False
-    old = np.cross(pb - pa, pc - pa) + np.cross(pa - pb, pd - pb)
-    new = (np.cross(pd - pc, pb - pc), np.cross(pc - pd, pa - pd))
-    return all(float(n @ old) > 0.5 * np.linalg.norm(n) * np.linalg.norm(old) for n in new)
+def _inner_edges(
+    triangles: IntArray,
+) -> tuple[IntArray, IntArray, IntArray, IntArray, IntArray]:
+    """Return edges of two triangles: their ends, the triangles, the corners facing them.
+
+    The left triangle runs from the edge's first end to its second, the right one back.
+    """
+    t = len(triangles)
+    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    apex = np.concatenate([triangles[:, 2], triangles[:, 0], triangles[:, 1]])
+    owner = np.tile(np.arange(t), 3)
+    _, group = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
+    # Both halves of an edge follow each other, the one that runs upwards first.
+    order = np.lexsort([ends[:, 0] > ends[:, 1], group.ravel()])
+    pair = np.flatnonzero(np.diff(group.ravel()[order]) == 0)
+    one, two = order[pair], order[pair + 1]
+    return ends[one], owner[one], owner[two], apex[one], apex[two]
 
 
-def _angle(p: FloatArray, apex: FloatArray, q: FloatArray) -> float:
-    """Return the angle at ``apex`` between the ways to ``p`` and ``q``, in radians."""
-    u, v = p - apex, q - apex
-    return float(np.arctan2(np.linalg.norm(np.cross(u, v)), u @ v))
+def _unit_normal(points: FloatArray, a: IntArray, b: IntArray, c: IntArray) -> FloatArray:
+    """Return the unit normals of triangles with the given corners."""
+    return normalized(np.cross(points[b] - points[a], points[c] - points[a]))
+
+
+def _angle(points: FloatArray, p: IntArray, apex: IntArray, q: IntArray) -> FloatArray:
+    """Return the angles at ``apex`` between the ways to ``p`` and ``q``, in radians."""
+    u, v = points[p] - points[apex], points[q] - points[apex]
+    return np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), (u * v).sum(axis=1))
 
 
 def _relaxed(
     points: FloatArray, triangles: IntArray, rim: NDArray[np.int64], field: Field
 ) -> FloatArray:
     """Return points moved along the surface to the middle of their neighbours, then back on it."""
-    closed, both, _ = mirrored(points, triangles)
-    middle = (adjacency(both, len(closed)) @ closed)[: len(points)]
-    normal = field.slope(points)
-    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-9)
-    step = middle - points
+    closed, both, mirror = mirrored(points, triangles)
+    mean = adjacency(both, len(closed))
+    normal = normalized(field.slope(points))
+    step = (mean @ closed)[: len(points)] - points
     step -= np.einsum("pk,pk->p", step, normal)[:, None] * normal
-    moved = points + 0.5 * step
+    # On an edge of the shape neighbours' normals differ, and their mean is short: points stay
+    # there, or hems and rims would fray.
+    normals = np.concatenate([normal, normal[mirror[len(points) :]] * [-1.0, 1.0, 1.0]])
+    bend = 1.0 - np.linalg.norm((mean @ normals)[: len(points)], axis=1, keepdims=True)
+    moved = points + 0.5 * step / (1.0 + (bend / BEND) ** 2)
     moved[rim, 0] = points[rim, 0]
     for _ in range(2):
         slope = field.slope(moved)

@@ -28,8 +28,8 @@ def body_weights(
     mirror: NDArray[np.int64],
     fields: BodyFields,
     skeleton: Skeleton,
-) -> tuple[IntArray, FloatArray]:
-    """Return joint indices and weights, both ``(p, 4)``, exactly symmetric.
+) -> FloatArray:
+    """Return each joint's weight on each point, ``(p, j)``, exactly symmetric.
 
     Parameters
     ----------
@@ -48,12 +48,30 @@ def body_weights(
         twin = joint.replace("left_", "right_")
         dense[~other, skeleton.index(joint)] += share[~other]
         dense[other, skeleton.index(twin)] += share[other]
-    mean = adjacency(triangles, len(points))
+    return symmetric(dense, triangles, mirror, skeleton)
+
+
+def weights_of_neighbours(
+    points: FloatArray, body_points: FloatArray, body_weights: FloatArray
+) -> FloatArray:
+    """Return the weights at points near a body, from the body's points around each."""
+    from scipy.spatial import KDTree
+
+    distance, near = KDTree(body_points).query(points, k=6)
+    share = 1.0 / (distance + 0.002) ** 2
+    share /= share.sum(axis=1, keepdims=True)
+    return np.einsum("pk,pkj->pj", share, body_weights[near])
+
+
+def symmetric(
+    weights: FloatArray, triangles: IntArray, mirror: NDArray[np.int64], skeleton: Skeleton
+) -> FloatArray:
+    """Return weights ``(p, j)`` averaged over the mesh and made equal on both sides."""
+    mean = adjacency(triangles, len(weights))
     for _ in range(SMOOTHING_ROUNDS):
-        dense = 0.5 * dense + 0.5 * (mean @ dense)
+        weights = 0.5 * weights + 0.5 * (mean @ weights)
     twins = [skeleton.index(_twin(joint)) for joint in skeleton.joints]
-    dense = 0.5 * (dense + dense[mirror][:, twins])
-    return strongest(dense)
+    return 0.5 * (weights + weights[mirror][:, twins])
 
 
 def strongest(dense: FloatArray) -> tuple[IntArray, FloatArray]:
