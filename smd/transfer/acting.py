@@ -1,0 +1,110 @@
+"""Acting: the moves of a course as poses at even times."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.geometry.arrays import BoolArray, FloatArray
+from smd.transfer.gait import standing
+from smd.transfer.move import Move
+from smd.transfer.poses import Poses, mixed, sampled
+from smd.transfer.transitions import TRANSITION_S, carried_over
+
+_STEP_S = 1e-3
+"""Time over which the velocities on both sides of a boundary are taken."""
+
+
+def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Clip) -> Poses:
+    """Return local poses at each time, with transitions, the ground root left at its origin.
+
+    Parameters
+    ----------
+    moves
+        One after the other; each acts from where the one before it ends.
+    time_s
+        ``(n,)`` increasing, from the first move's start to the last one's end.
+    idle
+        Clip that is seen as far as a move is not.
+    """
+    clock_s = moves[0].start_s
+    pieces: list[Poses] = []
+    for i, (move, rows) in enumerate(zip(moves, rows_of(moves, time_s), strict=True)):
+        now_s = time_s[rows]
+        poses = _poses(move, now_s, idle, clock_s)
+        if i > 0 and len(now_s) > 0:
+            poses = _joined(moves[i - 1], move, poses, now_s, idle, clock_s)
+        pieces.append(poses)
+    return Poses(
+        np.concatenate([piece.rotation_xyzw for piece in pieces]),
+        np.concatenate([piece.translation_m for piece in pieces]),
+    )
+
+
+def acted_contacts(
+    moves: Sequence[Move], time_s: FloatArray, idle: Clip, feet: Sequence[int]
+) -> BoolArray:
+    """Return when each foot should stand, ``(n, feet)``, as the clips say."""
+    clock_s = moves[0].start_s
+    stands = np.zeros((len(time_s), len(feet)), dtype=bool)
+    for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
+        now_s = time_s[rows]
+        seen = move.presence_at(now_s) >= 0.5
+        of_move = _contacts(move.clip, move.frame_at(now_s), feet)
+        of_idle = _contacts(idle, (now_s - clock_s) * idle.rate_hz, feet)
+        stands[rows] = np.where(seen[:, None], of_move, of_idle)
+    return stands
+
+
+def rows_of(moves: Sequence[Move], time_s: FloatArray) -> list[slice]:
+    """Return which of the times each move acts at; the last one acts at its end too."""
+    cuts = np.searchsorted(time_s, [move.end_s for move in moves[:-1]])
+    edges = [0, *cuts.tolist(), len(time_s)]
+    return [slice(a, b) for a, b in pairwise(edges)]
+
+
+def _poses(move: Move, time_s: FloatArray, idle: Clip, clock_s: float) -> Poses:
+    poses = sampled(move.clip, move.frame_at(time_s))
+    presence = move.presence_at(time_s)
+    faint = np.flatnonzero(presence < 1.0)
+    if len(faint) == 0:
+        return poses
+    standing_still = sampled(idle, (time_s[faint] - clock_s) * idle.rate_hz)
+    some = Poses(poses.rotation_xyzw[faint], poses.translation_m[faint])
+    some = mixed(standing_still, some, presence[faint])
+    poses.rotation_xyzw[faint], poses.translation_m[faint] = some
+    return poses
+
+
+def _contacts(clip: Clip, frame: FloatArray, feet: Sequence[int]) -> BoolArray:
+    last = len(clip) - 1
+    frame = np.mod(frame, last) if clip.cyclic else np.clip(frame, 0.0, last)
+    nearest = np.round(frame).astype(np.int64)
+    stands = standing(clip)
+    none = np.zeros(len(clip), dtype=bool)
+    return np.stack([stands.get(foot, none)[nearest] for foot in feet], axis=-1)
+
+
+def _joined(
+    before: Move, move: Move, poses: Poses, now_s: FloatArray, idle: Clip, clock_s: float
+) -> Poses:
+    """Let the difference to the move before die away over this one's first poses."""
+    at_s = before.end_s
+    over_s = min(TRANSITION_S, before.room_s, move.start_s - at_s + move.room_s)
+    count = int(np.searchsorted(now_s, at_s + over_s))
+    if count == 0:
+        return poses
+    first = Poses(poses.rotation_xyzw[:count], poses.translation_m[:count])
+    first = carried_over(
+        _poses(before, at_s + np.array([-_STEP_S, 0.0]), idle, clock_s),
+        _poses(move, at_s + np.array([0.0, _STEP_S]), idle, clock_s),
+        first,
+        now_s[:count] - at_s,
+        over_s=over_s,
+        step_s=_STEP_S,
+    )
+    poses.rotation_xyzw[:count], poses.translation_m[:count] = first
+    return poses

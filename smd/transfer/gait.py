@@ -1,0 +1,136 @@
+"""Gait: how many cycles of a walk (run, side-step …) take a character over a distance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.geometry.arrays import BoolArray
+
+SHORTEST_STRIDE, LONGEST_STRIDE = 0.6, 1.25
+"""How far a stride may shrink or stretch from its clip's: within a human leg's means."""
+
+HALF_CYCLE_TOLERANCE = 0.05
+"""How far from half a cycle apart two passings may be and still halve it."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Passing:
+    """A foot half through the air, where it passes the one that stands.
+
+    Attributes
+    ----------
+    phase : in the cycle, in [0, 1).
+    foot : index of the joint.
+    """
+
+    phase: float
+    foot: int
+
+
+@dataclass(frozen=True, slots=True)
+class Gait:
+    """What a travelling cyclic clip does per cycle.
+
+    Attributes
+    ----------
+    stride_m : distance over the ground.
+    duration_s : of a cycle.
+    passings : by phase; a gait begins and ends there, since it is nearest to standing. Empty for
+        what never touches the ground.
+    """
+
+    stride_m: float
+    duration_s: float
+    passings: tuple[Passing, ...]
+
+    @property
+    def speed_m_s(self) -> float:
+        """The clip's own speed."""
+        return self.stride_m / self.duration_s
+
+    @property
+    def halves(self) -> bool:
+        """Whether the feet pass each other twice a cycle, half a cycle apart."""
+        return (
+            len(self.passings) == 2
+            and abs(self.passings[1].phase - self.passings[0].phase - 0.5) < HALF_CYCLE_TOLERANCE
+        )
+
+    def cycles_for(self, distance_m: float, duration_s: float) -> float:
+        """Return how many cycles, whole or half, cover a distance in a time.
+
+        People who walk slower take shorter and fewer steps alike: the ratio of step length to
+        step rate hardly changes with speed [1]_, so that the stride grows with its root. A gait
+        that goes nowhere keeps its own time.
+
+        References
+        ----------
+        .. [1] N. Sekiya, H. Nagasaki, "Reproducibility of the walking patterns of normal young
+
+        """
+        unit = 0.5 if self.halves else 1.0
+        speed_ratio = distance_m / duration_s / self.speed_m_s
+        if speed_ratio < 0.05:
+            cycles = duration_s / self.duration_s
+        else:
+            shrink = np.clip(np.sqrt(speed_ratio), SHORTEST_STRIDE, LONGEST_STRIDE)
+            cycles = distance_m / (self.stride_m * shrink)
+        return float(max(round(cycles / unit), 1) * unit)
+
+
+def gait_of(clip: Clip) -> Gait:
+    """Read a travelling cyclic clip's gait."""
+    passings = [
+        Passing(phase, foot)
+        for foot, stands in standing(clip).items()
+        for phase in _middles(~stands[:-1])
+    ]
+    return Gait(clip.travel_m, clip.duration_s, tuple(sorted(passings)))
+
+
+def phase_after(before: Clip, end_frame: float, after: Clip) -> float | None:
+    """Return where a gait goes on from another: where the same foot passes; None if it has none.
+
+    Parameters
+    ----------
+    end_frame
+        Where ``before`` ended; at one of its own passings.
+    """
+    phase = end_frame / (len(before) - 1)
+    ended = min(gait_of(before).passings, key=lambda p: abs((p.phase - phase + 0.5) % 1.0 - 0.5))
+    return next((p.phase for p in gait_of(after).passings if p.foot == ended.foot), None)
+
+
+def standing(clip: Clip) -> dict[int, BoolArray]:
+    """Return when each foot stands ``(n,)``, by its joint: it touches, or a joint below does."""
+    feet: dict[int, BoolArray] = {}
+    for joint, touches in zip(clip.contact_joints, clip.contacts.T, strict=True):
+        foot = _foot_of(clip, clip.skeleton.index(joint))
+        feet[foot] = feet[foot] | touches if foot in feet else touches
+    return feet
+
+
+def _foot_of(clip: Clip, joint: int) -> int:
+    """Return the highest contact joint above a contact joint, or itself: toes belong to a foot."""
+    contact = {clip.skeleton.index(name) for name in clip.contact_joints}
+    foot, parent = joint, int(clip.skeleton.parents[joint])
+    while parent >= 0:
+        if parent in contact:
+            foot = parent
+        parent = int(clip.skeleton.parents[parent])
+    return foot
+
+
+def _middles(signal: BoolArray) -> list[float]:
+    """Return the phases of the middles of a cyclic signal's stretches of true."""
+    if signal.all() or not signal.any():
+        return []
+    n = len(signal)
+    first_off = int(np.argmin(signal))
+    rolled = np.roll(signal, -first_off).astype(np.int8)
+    edges = np.diff(np.concatenate([[0], rolled, [0]]))
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    return [float(((s + e - 1) / 2 + first_off) % n / n) for s, e in zip(starts, ends, strict=True)]

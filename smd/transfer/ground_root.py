@@ -1,0 +1,76 @@
+"""The ground root of a clip: how its travel and turn go on frame by frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.character.clip import STAGES, Clip
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import heading_rad
+
+_EXECUTION = STAGES.index("execution")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GroundRoot:
+    """A clip's ground root, seen from where it stands in the first frame.
+
+    Attributes
+    ----------
+    position_m : (n, 2) to the left and ahead; the first is zero.
+    yaw_rad : (n,) turned to the left since the first frame, without jumps.
+    """
+
+    position_m: FloatArray
+    yaw_rad: FloatArray
+
+    @property
+    def turn_rad(self) -> float:
+        """The whole turn, to the left."""
+        return float(self.yaw_rad[-1])
+
+    def position_at(self, frame: FloatArray) -> FloatArray:
+        """Return the place ``(m, 2)`` at fractional frames."""
+        frames = np.arange(len(self.yaw_rad))
+        return np.stack([np.interp(frame, frames, axis) for axis in self.position_m.T], axis=-1)
+
+    def yaw_at(self, frame: FloatArray) -> FloatArray:
+        """Return the turn at fractional frames."""
+        return np.asarray(np.interp(frame, np.arange(len(self.yaw_rad)), self.yaw_rad))
+
+
+def ground_root(clip: Clip) -> GroundRoot:
+    """Return how a clip's ground root goes."""
+    yaw = np.unwrap(heading_rad(clip.rotation_xyzw[:, 0]))
+    over_ground = clip.translation_m[:, 0, [0, 2]]
+    return GroundRoot(turned(over_ground - over_ground[0], -yaw[0]), yaw - yaw[0])
+
+
+def turned(over_ground: FloatArray, angle_rad: FloatArray | float) -> FloatArray:
+    """Turn x and z ``(…, 2)`` by an angle about +Y."""
+    x, z = over_ground[..., 0], over_ground[..., 1]
+    sine, cosine = np.sin(angle_rad), np.cos(angle_rad)
+    return np.stack([cosine * x + sine * z, cosine * z - sine * x], axis=-1)
+
+
+def executed(clip: Clip) -> FloatArray:
+    """Return the share ``(n,)`` of a clip's travel that is done by each frame.
+
+    The ground root stays in place up to the execution's start and from its end on [1]_; in
+    between it goes as the clip's own, or, where the clip has no travel of its own, evenly.
+
+    References
+    ----------
+    .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019, section 6.2.
+    """
+    n = len(clip)
+    start, end = clip.stage_end_frames[_EXECUTION - 1], clip.stage_end_frames[_EXECUTION]
+    if end <= start:
+        start, end = 0, n - 1
+    steps = np.linalg.norm(np.diff(ground_root(clip).position_m, axis=0), axis=-1)
+    way = np.concatenate([[0.0], np.cumsum(steps)])
+    if way[end] - way[start] < 1e-6:
+        way = np.arange(n, dtype=np.float64)
+    return np.clip((way - way[start]) / (way[end] - way[start]), 0.0, 1.0)

@@ -1,0 +1,108 @@
+"""Grounding: a character's legs brought to where its feet stand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from smd.character.ik import two_bone_ik
+from smd.character.skeleton import Skeleton
+from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
+from smd.transfer.easing import gaussian_smoothed
+from smd.transfer.footing import Footing, footing
+from smd.transfer.legs import Leg, world_of
+from smd.transfer.poses import Poses
+
+SOFTNESS = 0.004
+"""Last part of a leg's reach in which it straightens ever more slowly."""
+
+MOST_SINK_M = 0.12
+"""How far the body sinks at most so that a standing leg reaches its foot."""
+
+SINKING_S = 0.12
+"""How long before and after the body begins and ends to sink."""
+
+
+def grounded(
+    skeleton: Skeleton, poses: Poses, stands: BoolArray, legs: Sequence[Leg], rate_hz: float
+) -> Poses:
+    """Return poses whose feet stand still where they should, and are never in the ground.
+
+    Parameters
+    ----------
+    poses
+        With the ground root in its place.
+    stands
+        ``(n, legs)`` when each foot should stand.
+    """
+    rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
+    feet = []
+    for leg, should in zip(legs, stands.T, strict=True):
+        foot_q, ankle = world_of(skeleton, leg.foot, rotation, translation)
+        step = footing(leg, foot_q, ankle, should, rate_hz)
+        about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
+        feet.append((leg, step, multiply(about, foot_q), ankle + step.shift_m))
+    pelvis = _pelvis(skeleton, legs)
+    if pelvis is not None:
+        translation[:, pelvis, 1] -= _sunk(skeleton, rotation, translation, feet, rate_hz)
+    for leg, _, foot_q, ankle in feet:
+        _bring(skeleton, leg, rotation, translation, foot_q, ankle)
+    return Poses(rotation, translation)
+
+
+def _pelvis(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:
+    """Return the joint below the root that holds all legs, if there is one."""
+    holders = set()
+    for leg in legs:
+        joint = leg.upper
+        while skeleton.parents[joint] > 0:
+            joint = int(skeleton.parents[joint])
+        holders.add(joint)
+    holders -= {leg.upper for leg in legs}
+    return holders.pop() if len(holders) == 1 else None
+
+
+def _sunk(
+    skeleton: Skeleton,
+    rotation: FloatArray,
+    translation: FloatArray,
+    feet: Sequence[tuple[Leg, Footing, FloatArray, FloatArray]],
+    rate_hz: float,
+) -> FloatArray:
+    """Return how far the body sinks ``(n,)`` for every standing foot to be within reach."""
+    need = np.zeros(len(rotation))
+    for leg, step, _, ankle in feet:
+        _, hip = world_of(skeleton, leg.upper, rotation, translation)
+        reach = leg.limb.reach_m * (1.0 - SOFTNESS)
+        aside = np.hypot(*(hip - ankle)[:, [0, 2]].T)
+        depth = np.sqrt(np.maximum(reach**2 - aside**2, 0.0))
+        need = np.maximum(need, np.where(step.stands, hip[:, 1] - ankle[:, 1] - depth, 0.0))
+    need = np.minimum(need, MOST_SINK_M)
+    around = int(np.ceil(SINKING_S * rate_hz))
+    padded = np.pad(need, around, mode="edge")
+    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * around + 1).max(axis=-1)
+    return gaussian_smoothed(highest, SINKING_S / 3.0 * rate_hz)
+
+
+def _bring(
+    skeleton: Skeleton,
+    leg: Leg,
+    rotation: FloatArray,
+    translation: FloatArray,
+    foot_q: FloatArray,
+    ankle: FloatArray,
+) -> None:
+    """Turn thigh, shin and foot, in place, so that the foot is where and as it should be.
+
+    The knee keeps pointing where it did.
+    """
+    parent_q, _ = world_of(skeleton, int(skeleton.parents[leg.upper]), rotation, translation)
+    thigh_q, hip = world_of(skeleton, leg.upper, rotation, translation)
+    hinge = rotate(thigh_q, leg.limb.upper_hinge)
+    pole = np.cross(hinge, hip - ankle)
+    upper_q, lower_q = two_bone_ik(leg.limb, hip, ankle, pole, softness=SOFTNESS)
+    rotation[:, leg.upper] = multiply(inverse(parent_q), upper_q)
+    rotation[:, leg.lower] = multiply(inverse(upper_q), lower_q)
+    rotation[:, leg.foot] = multiply(inverse(lower_q), foot_q)

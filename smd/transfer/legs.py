@@ -1,0 +1,88 @@
+"""Legs: the joints that hold a foot, and the points of its sole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.character.ik import Limb, limb_of
+from smd.character.kinematics import forward_kinematics
+from smd.character.skeleton import Skeleton
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import inverse, multiply, rotate
+
+HEEL_BEHIND_ANKLE = 0.37
+"""How far the heel is behind the ankle, as a share of the ball's distance ahead of it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leg:
+    """A foot and the two joints above it.
+
+    Attributes
+    ----------
+    upper, lower, foot : indices of the joints: thigh, shin, foot.
+    limb : thigh and shin.
+    heel_m, ball_m : (3,) points of the sole, in the foot's frame.
+    ball_height_m : height over the ground of ``ball_m`` when the foot stands flat.
+    """
+
+    upper: int
+    lower: int
+    foot: int
+    limb: Limb
+    heel_m: FloatArray
+    ball_m: FloatArray
+    ball_height_m: float
+
+
+def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
+    """Return the legs of the feet that have one: two joints above them, apart from the root.
+
+    The knee is taken to point ahead. The ball is at the foot's first child, the heel on the
+    ground behind the ankle; a foot without a child touches the ground below its joint alone.
+    """
+    world_q, world_p = forward_kinematics(
+        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
+    )
+    legs = []
+    for foot in feet:
+        lower = int(skeleton.parents[foot])
+        upper = int(skeleton.parents[lower]) if lower > 0 else -1
+        if upper <= 0:
+            continue
+        below = np.flatnonzero(skeleton.parents == foot)
+        ahead = world_p[below[0]] - world_p[foot] if len(below) else np.zeros(3)
+        under = np.array([0.0, -world_p[foot, 1], 0.0])
+        heel = under - HEEL_BEHIND_ANKLE * np.array([ahead[0], 0.0, ahead[2]])
+        ball = ahead if len(below) else under
+        back = inverse(world_q[foot])
+        thigh, shin, end = (skeleton.joints[joint] for joint in (upper, lower, foot))
+        legs.append(
+            Leg(
+                upper=upper,
+                lower=lower,
+                foot=foot,
+                limb=limb_of(skeleton, thigh, shin, end, [0.0, 0.0, 1.0]),
+                heel_m=rotate(back, heel),
+                ball_m=rotate(back, ball),
+                ball_height_m=float(world_p[foot, 1] + ball[1]),
+            )
+        )
+    return tuple(legs)
+
+
+def world_of(
+    skeleton: Skeleton, joint: int, rotation_xyzw: FloatArray, translation_m: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return one joint's rotation ``(n, 4)`` and position ``(n, 3)`` in the world."""
+    chain = [joint]
+    while skeleton.parents[chain[-1]] >= 0:
+        chain.append(int(skeleton.parents[chain[-1]]))
+    q, p = rotation_xyzw[:, chain[-1]], translation_m[:, chain[-1]]
+    for link in reversed(chain[:-1]):
+        p = p + rotate(q, translation_m[:, link])
+        q = multiply(q, rotation_xyzw[:, link])
+    return q, p

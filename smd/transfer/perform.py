@@ -1,0 +1,145 @@
+"""From a Score to a Performance."""
+
+from __future__ import annotations
+
+import difflib
+
+import numpy as np
+
+from actions_library.library import IDLE, Library
+from smd.doodle import Recording
+from smd.errors import ScoreError, TransferError
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import quaternion_about, sign_continuous
+from smd.score import Part, Score
+from smd.transfer.acting import acted_contacts, acted_poses
+from smd.transfer.course import course
+from smd.transfer.easing import gaussian_smoothed
+from smd.transfer.gait import standing
+from smd.transfer.grounding import grounded
+from smd.transfer.legs import legs_of
+from smd.transfer.move import Move
+from smd.transfer.path import ground_path
+from smd.transfer.performance import Actor, Performance
+from smd.transfer.poses import Poses
+from smd.transfer.stage import Stage, stage_for
+from smd.transfer.timeline import timeline
+
+RATE_HZ = 24.0
+"""Frames per second: film's, and what Blender's importer leaves its scene at."""
+
+BEYOND_S = 0.05
+"""How far a phrase may reach beyond its device's samples: hand-written times are rounded."""
+
+TURNING_S = 0.1
+"""Smoothing of a performer's heading, so that it turns into and out of a phrase gently."""
+
+
+def perform(
+    score: Score, recording: Recording, library: Library, *, rate_hz: float = RATE_HZ
+) -> Performance:
+    """Act out a Score.
+
+    Parameters
+    ----------
+    score
+        Its actions are the library's, its devices the recording's.
+    recording
+        What the Score was read from; the performance lasts from its first to its last sample.
+    library
+        Character and clips.
+    rate_hz
+        Frames per second, positive.
+
+    Raises
+    ------
+    ScoreError
+        If an action, a device or a time is not there.
+    TransferError
+        If ``rate_hz`` is not positive and finite, or the Score has no performers.
+    """
+    if not (np.isfinite(rate_hz) and rate_hz > 0):
+        raise TransferError(f"rate_hz: expected a positive number, got {rate_hz!r}")
+    if not score.performers:
+        raise TransferError("score: expected at least one performer, got none")
+    for part in score.performers:
+        check_part(part, recording, library)
+    start_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
+    end_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
+    # + 1e-6: a duration of whole frames may come out a hair short.
+    frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
+    time_s = start_s + np.arange(frames) / rate_hz
+    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
+    actors = tuple(
+        act(part, recording, stage, library, time_s, rate_hz) for part in score.performers
+    )
+    return Performance(rate_hz, start_s, actors, score)
+
+
+def check_part(part: Part, recording: Recording, library: Library) -> None:
+    """Raise ScoreError unless a part's device, actions and times are there."""
+    if part.device not in recording.devices:
+        raise ScoreError(
+            f"performers: expected a device of the recording ({', '.join(recording.devices)}), "
+            f"found {part.device!r}"
+        )
+    known = [action.name for action in library.actions]
+    doodles = recording.of(part.device)
+    first_s, last_s = float(doodles[0].time_s[0]), float(doodles[-1].time_s[-1])
+    for i, phrase in enumerate(part.phrases):
+        place = f"device {part.device!r}: phrases[{i}]"
+        if phrase.action not in known:
+            near = difflib.get_close_matches(phrase.action, known, n=1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise ScoreError(
+                f"{place}.action: expected one of {', '.join(known)}, found {phrase.action!r}{hint}"
+            )
+        if phrase.start_s < first_s - BEYOND_S or phrase.end_s > last_s + BEYOND_S:
+            raise ScoreError(
+                f"{place}: expected times within the device's {first_s:.3f} to {last_s:.3f} s, "
+                f"found {phrase.action!r} from {phrase.start_s:.3f} to {phrase.end_s:.3f} s"
+            )
+
+
+def act(
+    part: Part,
+    recording: Recording,
+    stage: Stage,
+    library: Library,
+    time_s: FloatArray,
+    rate_hz: float,
+) -> Actor:
+    """Act out one part at even times."""
+    skeleton, idle = library.character.skeleton, library.clip(IDLE)
+    doodles = recording.of(part.device)
+    path = ground_path(doodles, stage)
+    moves = course(timeline(part, float(time_s[0]), float(time_s[-1])), path, library)
+    poses = placed(acted_poses(moves, time_s, idle), moves, time_s, rate_hz)
+    feet = sorted({foot for move in moves for foot in standing(move.clip)} | set(standing(idle)))
+    legs = legs_of(skeleton, feet)
+    stands = acted_contacts(moves, time_s, idle, [leg.foot for leg in legs])
+    poses = grounded(skeleton, poses, stands, legs, rate_hz)
+    return Actor(
+        device=part.device,
+        character=library.character,
+        rotation_xyzw=sign_continuous(poses.rotation_xyzw),
+        translation_m=poses.translation_m,
+        doodles=tuple(stage.placed_doodle(doodle) for doodle in doodles),
+        part=part,
+    )
+
+
+def placed(poses: Poses, moves: tuple[Move, ...], time_s: FloatArray, rate_hz: float) -> Poses:
+    """Put the ground root of poses where the moves have it."""
+    ends = [move.end_s for move in moves[:-1]]
+    of = np.searchsorted(ends, time_s, side="right")
+    heading = np.empty(len(time_s))
+    translation = poses.translation_m.copy()
+    for i, move in enumerate(moves):
+        rows = np.flatnonzero(of == i)
+        translation[rows[:, None], 0, [[0, 2]]] = move.root_at(time_s[rows])
+        heading[rows] = move.heading_at(time_s[rows])
+    rotation = poses.rotation_xyzw.copy()
+    heading = gaussian_smoothed(heading, TURNING_S * rate_hz)
+    rotation[:, 0] = quaternion_about([0.0, 1.0, 0.0], heading)
+    return Poses(rotation, translation)

@@ -1,0 +1,51 @@
+"""Stage: the table that was played on, as large as the character needs it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from smd.doodle import Doodle, Recording
+from smd.errors import TransferError
+from smd.geometry.arrays import FloatArray, frozen_array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stage:
+    """Where a recording's places are on the stage.
+
+    Attributes
+    ----------
+    scale : metres on the stage per metre of the recording.
+    origin_m : (3,) the place of the recording that is the stage's origin.
+    """
+
+    scale: float
+    origin_m: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(
+            self, "origin_m", frozen_array("origin_m", self.origin_m, (3,), TransferError)
+        )
+
+    def placed(self, position_m: FloatArray) -> FloatArray:
+        """Return where places ``(…, 3)`` of the recording are on the stage."""
+        return (position_m - self.origin_m) * self.scale
+
+    def placed_doodle(self, doodle: Doodle) -> Doodle:
+        """Return a doodle as large as the stage; its times and turns stay."""
+        return replace(doodle, position_m=self.placed(doodle.position_m))
+
+
+def stage_for(recording: Recording, character_height_m: float, figure_height_m: float) -> Stage:
+    """Return the stage on which a figurine of the prop's size is the character.
+
+    Places scale, times do not. Over the ground, the origin is the middle of the devices' first
+    places, so that performers keep their places beside each other; the ground is the lowest
+    point that any device reached.
+    """
+    first = [recording.of(device)[0].position_m[0] for device in recording.devices]
+    lowest = min(float(doodle.position_m[:, 1].min()) for doodle in recording.doodles)
+    middle = np.mean(first, axis=0)
+    return Stage(character_height_m / figure_height_m, np.array([middle[0], lowest, middle[2]]))

@@ -1,0 +1,152 @@
+"""Moves along the doodle's path: gaits, flight and leaps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.geometry.arrays import FloatArray
+from smd.transfer.easing import eased_clock, smootherstep
+from smd.transfer.gait import gait_of
+from smd.transfer.ground_root import executed
+from smd.transfer.move import Move, Placement, knots, nearest_turn
+from smd.transfer.path import GroundPath
+
+NOWHERE_M = 0.05
+"""A way on the stage that is no way: less than a foot shifts while standing."""
+
+SETTLING_S = 0.25
+"""Time in which a character that is in full gait where its phrase begins or ends gets going or
+comes to rest; never more than a quarter of the phrase."""
+
+FULL_GAIT_SPEED = 0.4
+"""Share of a gait's usual speed above which it is seen in full; below, it fades into standing."""
+
+TAKE_OFF_S = 0.6
+"""Time in which a clip that never touches the ground leaves it and comes back; never more than a
+third of the phrase."""
+
+
+def along_path(
+    clip: Clip,
+    path: GroundPath,
+    start_s: float,
+    end_s: float,
+    at: Placement,
+    *,
+    phase: float | None = None,
+    from_gait: bool = False,
+    into_gait: bool = False,
+) -> Move:
+    """Go along the path with a cyclic clip.
+
+    What steps goes by the distance travelled, what never touches the ground by time.
+
+    Parameters
+    ----------
+    phase
+        Where in its cycle the clip begins; by default where its feet pass.
+    from_gait, into_gait
+        Whether the phrase before ends, and the one after begins, in full gait along the same
+        path, so that there is no coming to rest between them.
+    """
+    gait = gait_of(clip)
+    time_s = knots(start_s, end_s)
+    clock_s = _settled(path, time_s, from_gait=from_gait, into_gait=into_gait)
+    over_ground = path.at(clock_s)
+    steps = np.linalg.norm(np.diff(over_ground, axis=0), axis=-1)
+    way_m = np.concatenate([[0.0], np.cumsum(steps)])
+    even = (time_s - start_s) / (end_s - start_s)
+    if gait.passings:
+        share = way_m / way_m[-1] if way_m[-1] > NOWHERE_M else even
+        cycles = gait.cycles_for(way_m[-1], end_s - start_s)
+        presence = _speed_presence(time_s, way_m, gait.speed_m_s)
+        first = gait.passings[0].phase if phase is None else phase
+    else:
+        share = even
+        cycles = float(max(round((end_s - start_s) / gait.duration_s), 1))
+        presence = _flight_presence(time_s, from_flight=from_gait, into_flight=into_gait)
+        first = 0.0 if phase is None else phase
+    heading = path.heading_at(clock_s)
+    return Move(
+        clip=clip,
+        start_s=start_s,
+        end_s=end_s,
+        time_s=time_s,
+        root_m=at.position_m + over_ground - over_ground[0],
+        heading_rad=heading + nearest_turn(heading[0], at.heading_rad) - heading[0],
+        frame=(first + cycles * share) * (len(clip) - 1),
+        presence=presence,
+    )
+
+
+def leap(clip: Clip, path: GroundPath, start_s: float, end_s: float, at: Placement) -> Move:
+    """Go along the path with a clip that travels once, such as a jump.
+
+    The ground root follows the path, re-timed so that it moves during the clip's execution alone
+    and as the clip's own does; it turns on the way as the prop did from start to end.
+    """
+    time_s = knots(start_s, end_s)
+    frame = (time_s - start_s) / (end_s - start_s) * (len(clip) - 1)
+    share = np.interp(frame, np.arange(len(clip)), executed(clip))
+    over_ground = path.at(time_s)
+    way_m = np.concatenate(
+        [[0.0], np.cumsum(np.linalg.norm(np.diff(over_ground, axis=0), axis=-1))]
+    )
+    clock_s = np.interp(share * way_m[-1], way_m, time_s) if way_m[-1] > NOWHERE_M else time_s
+    first, last = path.heading_at(start_s), path.heading_at(end_s)
+    return Move(
+        clip=clip,
+        start_s=start_s,
+        end_s=end_s,
+        time_s=time_s,
+        root_m=at.position_m + path.at(clock_s) - over_ground[0],
+        heading_rad=nearest_turn(float(first), at.heading_rad) + share * (last - first),
+        frame=frame,
+        presence=np.ones(len(time_s)),
+    )
+
+
+def _settled(
+    path: GroundPath, time_s: FloatArray, *, from_gait: bool, into_gait: bool
+) -> FloatArray:
+    """Return the times at which the path is gone: at rest at either end that borders on rest.
+
+    A phrase may begin or end while the prop is moving, since recognition cuts where the tokens
+    change. The character passes the same places, a little faster in between.
+    """
+    duration_s = time_s[-1] - time_s[0]
+    quarter_s = 0.25 * duration_s
+    step_s = min(1.0 / 60.0, quarter_s)
+    ends = np.array([time_s[0], time_s[0] + step_s, time_s[-1] - step_s, time_s[-1]])
+    places = path.at(ends)
+    speeds = np.linalg.norm(places[[1, 3]] - places[[0, 2]], axis=-1) / step_s
+    middle = path.at(time_s)
+    mean = np.linalg.norm(np.diff(middle, axis=0), axis=-1).sum() / duration_s
+    relative = np.minimum(speeds / max(mean, 1e-9), 1.0)
+    settling_s = min(SETTLING_S, quarter_s) * relative
+    return eased_clock(
+        time_s,
+        0.0 if from_gait else float(settling_s[0]),
+        0.0 if into_gait else float(settling_s[1]),
+    )
+
+
+def _speed_presence(time_s: FloatArray, way_m: FloatArray, usual_m_s: float) -> FloatArray:
+    """Return how much of a gait is seen: none at rest, all of it from a share of its speed."""
+    mean_m_s = way_m[-1] / (time_s[-1] - time_s[0])
+    if way_m[-1] <= NOWHERE_M:
+        return np.ones_like(time_s)
+    speed = np.gradient(way_m, time_s)
+    return smootherstep(speed / (FULL_GAIT_SPEED * min(usual_m_s, mean_m_s)))
+
+
+def _flight_presence(time_s: FloatArray, *, from_flight: bool, into_flight: bool) -> FloatArray:
+    """Return how much of a flight is seen: it leaves the ground at the start and comes back."""
+    take_off_s = min(TAKE_OFF_S, (time_s[-1] - time_s[0]) / 3.0)
+    presence = np.ones_like(time_s)
+    if not from_flight:
+        presence *= smootherstep((time_s - time_s[0]) / take_off_s)
+    if not into_flight:
+        presence *= smootherstep((time_s[-1] - time_s) / take_off_s)
+    return presence
