@@ -9,7 +9,7 @@ from smd.formats import aframe, native, tum
 from smd.formats.checks import checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
 from smd.formats.frame import Conversion, SourceFrame
-from smd.formats.text import read_text
+from smd.formats.text import read_text, require_file
 from smd.formats.tracks import Content, Track, fault, shown
 from smd.geometry.rotations import normalized
 
@@ -60,6 +60,7 @@ def read_recording(
     """
     name = str(path)
     path = Path(path)
+    require_file(path, name)
     if path.suffix.lower() not in READABLE:
         suffix = repr(path.suffix) if path.suffix else "no suffix"
         raise fault(name, "", f"a file with suffix {' '.join(READABLE)}", suffix)

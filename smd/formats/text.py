@@ -8,25 +8,37 @@ from pathlib import Path
 from smd.formats.tracks import fault
 
 
-def read_text(path: Path, name: str) -> str:
-    r"""Return a UTF-8 file's text, its line ends as ``\n`` and a byte order mark left out.
+def require_file(path: Path, name: str) -> None:
+    """Raise unless there is a regular file at ``path``.
 
     Raises
     ------
     RecordingError
-        If there is no such file, it cannot be read, or is not UTF-8 text.
+        If there is nothing, a folder, or a device.
     """
     try:
         if path.is_dir():
             raise fault(name, "", "a recording", "a folder")
         if not path.exists():
             raise fault(name, "", "a recording", "no such file")
-        if not path.is_file():
-            raise fault(name, "", "a recording", "no regular file")
+    except OSError as error:  # a name too long, a folder that may not be entered
+        raise fault(name, "", "a file that can be read", str(error.strerror)) from error
+    if not path.is_file():
+        raise fault(name, "", "a recording", "no regular file")
+
+
+def read_text(path: Path, name: str) -> str:
+    r"""Return a UTF-8 file's text, its line ends as ``\n`` and a byte order mark left out.
+
+    Raises
+    ------
+    RecordingError
+        If the file cannot be read, or is not UTF-8 text.
+    """
+    try:
         data = path.read_bytes()
-    except (OSError, ValueError) as error:  # ValueError: a null byte in the name
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise fault(name, "", "a file that can be read", str(reason)) from error
+    except OSError as error:
+        raise fault(name, "", "a file that can be read", str(error.strerror)) from error
     if _is_utf16(data):
         raise fault(name, "", "text in UTF-8", "UTF-16; save it again as UTF-8")
     if b"\0" in data:
