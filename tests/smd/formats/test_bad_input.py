@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from smd.errors import RecordingError
 from smd.formats import read_recording
@@ -234,3 +237,31 @@ def test_an_error_far_down_a_long_file_is_found(tmp_path):
     rows[15_000] = rows[15_000].replace(",1,2,", ",1,?,")
     path.write_text("# a: b\n" + HEADER + "\n".join(rows))
     assert refused(path) == "line 15003: expected a number in column z, found '?'"
+
+
+SEEDS = [
+    "# a: b\n" + HEADER + GOOD,
+    "t,device,x,y,z,qx,qy,qz,qw,drawing\n0,a,1,2,3,0,0,0,1,1\n0.1,a,1,2,3,0,0,0,1,0\n",
+    "0 1 2 3 0 0 0 1\n0.1 1 2 3 0 0 0 1\n",
+    json.dumps({"recording": {"a": {"poses": [POSE, POSE | {"timestamp": 20}]}}}),
+]
+PIECES = ["\n", ",", '"', "#", ":", " ", "nan", "inf", "1e999", "-", "{", "]", "null", "é", "\0"]
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.data())
+def test_no_damage_to_a_file_is_a_traceback(tmp_path_factory, data):
+    text = data.draw(st.sampled_from(SEEDS))
+    for _ in range(data.draw(st.integers(1, 3))):
+        start = data.draw(st.integers(0, len(text)))
+        end = data.draw(st.integers(start, min(start + 12, len(text))))
+        text = text[:start] + data.draw(st.sampled_from(["", *PIECES])) + text[end:]
+    path = tmp_path_factory.getbasetemp() / "damaged.csv"
+    path.write_text(text, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            read_recording(path)
+        except RecordingError as error:
+            assert "\n" not in str(error)
+            assert "expected" in str(error)
