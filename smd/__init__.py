@@ -14,17 +14,54 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from actions_library.library import load_library
+    from exporters import write
     from smd.doodle import Doodle, Recording
     from smd.errors import SmdError
+    from smd.formats import SourceFrame, read_recording, write_recording
+    from smd.pipeline import animate, parse
+    from smd.score import Phrase, Score, read_score, write_score
+    from smd.smoothing import smooth
+    from smd.transfer.performance import Performance
 
 _HOME = {
     "Doodle": "smd.doodle",
+    "Performance": "smd.transfer.performance",
+    "Phrase": "smd.score",
     "Recording": "smd.doodle",
+    "Score": "smd.score",
     "SmdError": "smd.errors",
+    "SourceFrame": "smd.formats",
+    "animate": "smd.pipeline",
+    "load_library": "actions_library.library",
+    "parse": "smd.pipeline",
+    "read_recording": "smd.formats",
+    "read_score": "smd.score",
+    "smooth": "smd.smoothing",
+    "write": "exporters",
+    "write_recording": "smd.formats",
+    "write_score": "smd.score",
 }
 """Where each public name is defined; it is imported when it is first asked for."""
 
-__all__ = ["Doodle", "Recording", "SmdError"]
+__all__ = [
+    "Doodle",
+    "Performance",
+    "Phrase",
+    "Recording",
+    "Score",
+    "SmdError",
+    "SourceFrame",
+    "animate",
+    "load_library",
+    "parse",
+    "read_recording",
+    "read_score",
+    "smooth",
+    "write",
+    "write_recording",
+    "write_score",
+]
 
 __version__ = "0.1.0"
 

@@ -13,6 +13,9 @@ from smd.errors import DoodleError
 from smd.geometry.arrays import BoolArray, FloatArray, frozen_array
 from smd.geometry.rotations import sign_continuous
 
+DEFAULT_FIGURE_HEIGHT_M = 0.175
+"""Height of the figurine that a prop stands for; 1 : 10 of a person of 1.75 m."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Doodle:
@@ -32,7 +35,7 @@ class Doodle:
     position_m: FloatArray
     orientation_xyzw: FloatArray
     device: str = "prop"
-    drawing: BoolArray | None = None
+    drawing: BoolArray = None  # type: ignore[assignment]  # filled in below
 
     def __post_init__(self) -> None:
         time_s = frozen_array("time_s", self.time_s, (None,), DoodleError)

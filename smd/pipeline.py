@@ -1,14 +1,128 @@
-"""The one place where the stages meet: from a Score to a performance."""
+"""The one place where the stages meet: from a recording to a Score to a performance."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
+
+import numpy as np
+
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
+from smd.errors import DoodleError, ScoreError
 
 if TYPE_CHECKING:
     from actions_library.library import Library
-    from smd.doodle import Recording
-    from smd.score import Score
+    from laban import EffortModel
+    from smd.doodle import Doodle, Recording
+    from smd.recognition.pattern import Pattern
+    from smd.score import Phrase, Score
     from smd.transfer.performance import Performance
+
+HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
+"""Names of devices that are worn, not played with."""
+
+
+def parse(
+    recording: Recording,
+    library: Library,
+    *,
+    figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+    devices: Collection[str] | None = None,
+) -> Score:
+    """Recognise the actions in a recording and read the Effort of each.
+
+    Parameters
+    ----------
+    recording
+        What was drawn.
+    library
+        The actions to recognise; only their patterns are read.
+    figure_height_m
+        Height of the figurine that the prop stands for, positive.
+    devices
+        Those that perform; by default all but headsets (or the headset, where it is alone).
+
+    Returns
+    -------
+    Score
+        A part for each device, in the recording's order; a part may be empty.
+
+    Raises
+    ------
+    ScoreError
+        If the figure height is not positive, or a device is not in the recording.
+    """
+    from laban import load_effort_model
+    from smd.score import Part, Score
+
+    empty = Score((), recording.source, figure_height_m=figure_height_m)
+    patterns = {action.name: action.pattern for action in library.actions if action.pattern}
+    model = load_effort_model()
+    parts, warnings = [], []
+    for device in _performing(recording, devices):
+        phrases: list[Phrase] = []
+        for doodle in recording.of(device):
+            try:
+                phrases.extend(_phrases(doodle, figure_height_m, patterns, model))
+            except DoodleError as error:
+                warnings.append(f"left out: {error}")
+        parts.append(Part(device, tuple(phrases)))
+        warnings.extend(_lost_tracking(recording, device))
+    return replace(empty, performers=tuple(parts), warnings=tuple(warnings))
+
+
+def _performing(recording: Recording, devices: Collection[str] | None) -> tuple[str, ...]:
+    """Return the devices that perform, in the recording's order."""
+    known = recording.devices
+    for device in devices or ():
+        if device not in known:
+            raise ScoreError(
+                f"{recording.source or 'recording'}: expected a device of {', '.join(known)}, "
+                f"got {device!r}"
+            )
+    if devices:
+        return tuple(device for device in known if device in devices)
+    played = tuple(device for device in known if device.lower() not in HEADSETS)
+    return played or known
+
+
+def _phrases(
+    doodle: Doodle, figure_height_m: float, patterns: Mapping[str, Pattern], model: EffortModel
+) -> Iterator[Phrase]:
+    """Yield what one doodle says; times to the millisecond, as a Score's file keeps them."""
+    from laban import read_effort
+    from smd.recognition.recognizer import recognize
+    from smd.recognition.tokenizer import tokenize
+    from smd.score import Alternative, Phrase
+    from smd.smoothing import smooth
+
+    motion = smooth(doodle)
+    before = np.searchsorted(doodle.time_s, motion.time_s + 1e-9, side="right") - 1
+    drawing = doodle.drawing[before]
+    runs = tokenize(motion, figure_height_m=figure_height_m, drawing=drawing)
+    for span in recognize(runs, patterns):
+        yield Phrase(
+            action=span.action,
+            start_s=round(span.start_s, 3),
+            end_s=round(span.end_s, 3),
+            effort=read_effort(motion.between(span.start_s, span.end_s), model),
+            confidence=span.confidence,
+            alternatives=tuple(Alternative(*other) for other in span.alternatives),
+        )
+
+
+def _lost_tracking(recording: Recording, device: str) -> Iterator[str]:
+    """Yield a line on where a device was lost, if it was."""
+    lost = [dropout for dropout in recording.dropouts if dropout.device == device]
+    if lost:
+        longest = max(lost, key=lambda dropout: dropout.end_s - dropout.start_s)
+        times = "once" if len(lost) == 1 else f"{len(lost)} times"
+        splits = sum(not dropout.bridged for dropout in lost)
+        yield (
+            f"device {device!r}: tracking was lost {times} ({splits} split the doodle); longest "
+            f"{longest.end_s - longest.start_s:.2f} s at {longest.start_s:.2f} s"
+        )
 
 
 def animate(

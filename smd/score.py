@@ -14,14 +14,12 @@ from pathlib import Path
 from typing import Any
 
 from laban import AXES, Effort
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.errors import ScoreError
 from smd.files import replacing
 
 SCHEMA = "smd.score"
 VERSION = 1
-
-DEFAULT_FIGURE_HEIGHT_M = 0.175
-"""Height of the figurine that the prop stands for; 1 : 10 of a person of 1.75 m."""
 
 
 @dataclass(frozen=True, slots=True)

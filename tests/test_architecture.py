@@ -6,6 +6,7 @@ import ast
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -78,7 +79,7 @@ def test_every_module_of_the_tree_is_on_the_page():
 
 def test_importing_smd_and_its_command_line_loads_nothing_heavy():
     heavy = {"numpy", "scipy", "pxr", "vtk", "pyvista", "matplotlib", "sklearn", "openvr"}
-    code = "import sys, smd, smd.cli; print(*{m.split('.')[0] for m in sys.modules})"
+    code = "import sys, smd, smd.cli.app; print(*{m.split('.')[0] for m in sys.modules})"
     loaded = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
     )
@@ -89,3 +90,10 @@ def test_links_between_pages_lead_somewhere():
     for page in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]:
         for link in re.findall(r"\]\((?!https?:|#)([^)#]+)", page.read_text(encoding="utf-8")):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
+
+
+def test_every_package_is_in_the_wheel():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    listed = set(project["tool"]["setuptools"]["packages"])
+    folders = {module_name(path) for path in MODULES if path.name == "__init__.py"}
+    assert listed == folders | {"actions_library.humanoid", "smd.recordings"}

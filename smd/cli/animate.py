@@ -34,6 +34,8 @@ def animate(
         recording = score_file.parent / score.recording
     options = reading.ReadingOptions.from_pairs(score.reading)
     take = options.read(recording)
-    shelf = smd.load_library(library or (Path(score.library) if score.library else None))
+    if library is None and score.library:
+        library = score_file.parent / score.library
+    shelf = smd.load_library(library)
     smd.write(smd.animate(score, take, shelf, rate_hz=fps), output)
     typer.echo(f"{output}: {reading.summary(take, score)}")

@@ -22,7 +22,7 @@ def convert(
         str, typer.Option("--as", help="Format of the files written into a folder.")
     ] = ".usdc",
     library: reading.LibraryFolder = None,
-    figure_height: reading.FigureHeight = 0.175,
+    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     fps: reading.FramesPerSecond = 24.0,
     device: reading.Device = None,
     up: reading.Up = None,
@@ -47,7 +47,7 @@ def convert(
     def one(index: int, file: Path) -> None:
         recording = options.read(file)
         score = smd.parse(recording, shelf, figure_height_m=figure_height, devices=device)
-        score = replace(score, reading=options.pairs)
+        score = replace(score, reading=options.pairs, library=str(library or ""))
         performance = smd.animate(score, recording, shelf, rate_hz=fps)
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"

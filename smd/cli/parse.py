@@ -26,7 +26,7 @@ def parse(
         bool, typer.Option("--json", help="Print the Score as JSON and nothing else.")
     ] = False,
     library: reading.LibraryFolder = None,
-    figure_height: reading.FigureHeight = 0.175,
+    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -48,7 +48,7 @@ def parse(
     def one(index: int, file: Path) -> None:
         recording = options.read(file)
         score = smd.parse(recording, shelf, figure_height_m=figure_height, devices=device)
-        score = replace(score, reading=options.pairs)
+        score = replace(score, reading=options.pairs, library=str(library or ""))
         scores.append(score)
         if outputs:
             write_score(reading.beside(score, outputs[index]), outputs[index])

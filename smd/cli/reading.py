@@ -42,6 +42,7 @@ Device = Annotated[
 LibraryFolder = Annotated[
     Path | None, typer.Option("--library", help="A library folder. Default: the shipped humanoid.")
 ]
+FIGURE_HEIGHT_M = 0.175  # smd.doodle's default, said here so that --help need not load NumPy
 FigureHeight = Annotated[
     float,
     typer.Option(help="Height in metres of the figurine the prop stands for; it sets the scale."),
@@ -130,10 +131,19 @@ def _count(number: int, noun: str) -> str:
 
 
 def beside(score: Score, score_file: Path) -> Score:
-    """Return the Score with its recording named as seen from the Score's own folder."""
-    where = Path(score.recording).resolve()
+    """Return the Score with its recording and library named as seen from the Score's folder."""
+    folder = score_file.resolve().parent
+    return replace(
+        score,
+        recording=_seen_from(folder, score.recording),
+        library=_seen_from(folder, score.library) if score.library else "",
+    )
+
+
+def _seen_from(folder: Path, name: str) -> str:
+    """Return a path relative to a folder, or whole where it is on another drive."""
+    path = Path(name).resolve()
     try:
-        relative = Path(os.path.relpath(where, score_file.resolve().parent))
-    except ValueError:  # another drive
-        relative = where
-    return replace(score, recording=relative.as_posix())
+        return Path(os.path.relpath(path, folder)).as_posix()
+    except ValueError:
+        return path.as_posix()

@@ -9,7 +9,8 @@ import numpy as np
 from laban import RigidMotion
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import inverse, normalized, rotate
-from smd.recognition.tokens import DEFAULT_FIGURE_HEIGHT_M, Direction, Token, TokenRun
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
+from smd.recognition.tokens import Direction, Token, TokenRun
 
 _SIGNS = (-1, 0, 1)
 DIRECTIONS: tuple[Direction, ...] = tuple((x, y, z) for x in _SIGNS for y in _SIGNS for z in _SIGNS)
@@ -43,8 +44,8 @@ class Thresholds:
     still: float = 0.05
     turning_rad_s: float = 0.8
     lever_heights: float = 0.5
-    swing_m: float = 0.5
-    hold: float = 0.5
+    swing_m: float = 0.7
+    hold: float = 0.28
     stay_rad: float = np.radians(8.0)
     shortest_s: float = 2.0 / 60.0
 
@@ -91,7 +92,9 @@ def tokenize(
     turning = motion.angular_velocity_rad_s
     on = np.ones(len(motion), bool) if drawing is None else np.asarray(drawing, bool)
 
-    meant_turning = _beyond_swing(turning, velocity, thresholds.swing_m)
+    # The hand twists as well as swings on its way, so all turning is compared with the path.
+    speed_m_s = np.linalg.norm(velocity, axis=-1)
+    meant_turning = _shortened(turning, speed_m_s / thresholds.swing_m)
     rotation = _bins(meant_turning, thresholds.turning_rad_s, on, thresholds)
     lever_m = thresholds.lever_heights * figure_height_m
     meant_velocity = _beyond_lever(velocity, turning * (rotation != NONE)[:, None], lever_m)
@@ -105,13 +108,6 @@ def tokenize(
     return _runs(motion, starts, codes, figure_height_m)
 
 
-def _across(vector: FloatArray, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Split vectors into the parts along an axis and across it."""
-    unit = normalized(axis)
-    along = np.sum(vector * unit, axis=-1, keepdims=True) * unit
-    return along, vector - along
-
-
 def _shortened(vector: FloatArray, by: FloatArray) -> FloatArray:
     """Return vectors shortened by ``by (n,)``, at most to zero."""
     length = np.linalg.norm(vector, axis=-1)
@@ -119,15 +115,13 @@ def _shortened(vector: FloatArray, by: FloatArray) -> FloatArray:
 
 
 def _beyond_lever(velocity: FloatArray, turning: FloatArray, lever_m: float) -> FloatArray:
-    """Return the velocity that turning about no point within ``lever_m`` explains."""
-    along, across = _across(velocity, turning)
-    return along + _shortened(across, lever_m * np.linalg.norm(turning, axis=-1))
+    """Return the velocity that turning about no point within ``lever_m`` explains.
 
-
-def _beyond_swing(turning: FloatArray, velocity: FloatArray, radius_m: float) -> FloatArray:
-    """Return the turning that moving on no circle of ``radius_m`` or more explains."""
-    along, across = _across(turning, velocity)
-    return along + _shortened(across, np.linalg.norm(velocity, axis=-1) / radius_m)
+    Turning moves points across its axis alone: what goes along the axis is meant.
+    """
+    axis = normalized(turning)
+    along = np.sum(velocity * axis, axis=-1, keepdims=True) * axis
+    return along + _shortened(velocity - along, lever_m * np.linalg.norm(turning, axis=-1))
 
 
 def _bins(vector: FloatArray, level: float, on: BoolArray, thresholds: Thresholds) -> IntArray:

@@ -11,9 +11,6 @@ from smd.errors import PatternError
 Direction = tuple[int, int, int]
 """Signs along +X (left), +Y (up), +Z (front): one of 27; (0, 0, 0) is no movement."""
 
-DEFAULT_FIGURE_HEIGHT_M = 0.175
-"""Height of the figurine that the prop stands for; 1 : 10 of a person of 1.75 m."""
-
 
 @dataclass(frozen=True, slots=True, order=True)
 class Token:

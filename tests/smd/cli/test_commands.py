@@ -1,0 +1,81 @@
+"""The commands do on shipped recordings what their help says."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+
+def test_parse_prints_one_phrase_a_line(run_smd, stories):
+    code, out, err = run_smd("parse", stories / "duel.csv")
+    expected = json.loads((stories / "duel.score.json").read_text(encoding="utf-8"))
+    actions = [phrase["action"] for part in expected["performers"] for phrase in part["phrases"]]
+    assert (code, err) == (0, "")
+    assert [line.split()[4] for line in out.splitlines() if "confidence" in line] == actions
+
+
+def test_json_is_all_that_json_prints(run_smd, stories):
+    code, out, _ = run_smd("parse", stories / "duel.csv", "--json")
+    score = json.loads(out)
+    assert code == 0
+    assert (score["schema"], score["version"]) == ("smd.score", 1)
+    phrase = score["performers"][0]["phrases"][0]
+    assert {"action", "start_s", "end_s", "effort", "confidence", "alternatives"} == set(phrase)
+
+
+def test_json_of_several_recordings_is_a_list(run_smd, stories):
+    files = sorted(stories.glob("*.csv"))
+    _, out, _ = run_smd("parse", *files, "--json")
+    assert [score["recording"] for score in json.loads(out)] == [str(file) for file in files]
+
+
+def test_parse_then_animate_is_convert(run_smd, stories, tmp_path):
+    take, score = stories / "duel.csv", tmp_path / "duel.score.json"
+    assert run_smd("parse", take, "-o", score)[0] == 0
+    assert run_smd("animate", score, "-o", tmp_path / "two-steps.usdc")[0] == 0
+    assert run_smd("convert", take, "-o", tmp_path / "one-step.usdc")[0] == 0
+    from pxr import Usd, UsdSkel
+
+    rotations = []
+    for name in ("two-steps", "one-step"):
+        stage = Usd.Stage.Open(str(tmp_path / f"{name}.usdc"))
+        animation = next(
+            UsdSkel.Animation(p) for p in stage.Traverse() if p.IsA(UsdSkel.Animation)
+        )
+        rotations.append([animation.GetRotationsAttr().Get(code) for code in (0, 40, 200)])
+    # times in a Score have three decimals, so poses differ by less than a frame's change
+    for mine, theirs in zip(*rotations, strict=True):
+        for a, b in zip(mine, theirs, strict=True):
+            assert abs(a.GetReal() * b.GetReal() + a.GetImaginary() * b.GetImaginary()) > 0.999
+
+
+def test_a_folder_in_gives_a_folder_out(run_smd, stories, tmp_path):
+    code, _, err = run_smd("convert", stories, "-o", tmp_path / "out", "--as", ".usda")
+    assert (code, err) == (0, "")
+    names = sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert names == sorted(f"{file.stem}.usda" for file in stories.glob("*.csv"))
+
+
+def test_library_list_names_every_action(run_smd):
+    _, out, _ = run_smd("library", "list", "--json")
+    names = {row["name"] for row in json.loads(out)}
+    assert {"walk", "run", "jump", "punch", "throw", "fly", "bow", "turn_left"} <= names
+    _, text, _ = run_smd("library", "list")
+    assert all(name in text for name in names)
+
+
+def test_demo_makes_what_it_says(run_smd, tmp_path):
+    pytest.importorskip("pyvista")
+    code, out, err = run_smd("demo", "-o", tmp_path / "demo")
+    assert (code, err) == (0, "")
+    made = {path.name for path in (tmp_path / "demo").iterdir()}
+    assert {"duel.usda", "duel.timeline.png"} <= made
+    assert "duel.filmstrip.png" in made or "no filmstrip" in out
+
+
+def test_the_command_lines_figure_height_is_the_librarys():
+    from smd.cli.reading import FIGURE_HEIGHT_M
+    from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
+
+    assert FIGURE_HEIGHT_M == DEFAULT_FIGURE_HEIGHT_M
