@@ -58,19 +58,17 @@ def read(text: str, name: str) -> Content:
         keys = ", ".join(list(whole)[:6]) if isinstance(whole, dict) else type(whole).__name__
         raise fault(name, "", "JSON with devices that have poses", shown(keys))
     numbers = {device: _numbers(name, device, listed) for device, listed in poses.items()}
-    start_ms = min(float(rows[0, 0]) for rows in numbers.values())
     tracks = tuple(
         Track(
             device=device,
-            time_s=(rows[:, 0] - start_ms) / 1000.0,
+            time_s=rows[:, 0] / 1000.0,
             position=rows[:, 1:4],
             quaternion=_quaternion_from_degrees(rows[:, 4:7]),
             place=partial(_place, device),
         )
         for device, rows in numbers.items()
     )
-    metadata = {"clock_zero_s": repr(start_ms / 1000.0)}
-    return Content(tracks, FRAME, order_is_given=True, metadata=metadata)
+    return Content(tracks, FRAME, order_is_given=True, clock_means_something=False)
 
 
 def _place(device: str, i: int) -> str:

@@ -14,6 +14,9 @@ FARTHEST_M = 1e6
 LATEST_S = 1e10
 """Three centuries from zero: a clock in milliseconds since 1970 is beyond it."""
 
+SHORTEST_STEP_S = 1e-9
+"""Two rows closer than this are one instant; speeds between them would mean nothing."""
+
 LENGTH_TOLERANCE = 0.02
 """How far a quaternion's length may be from 1: what rounding to two decimals does to it."""
 
@@ -55,12 +58,12 @@ def _check_times(name: str, track: Track) -> None:
             name, track.place(row), f"a time in seconds, at most {LATEST_S:g}", f"{time_s[row]:g}"
         )
     steps = np.diff(time_s)
-    if steps.min() <= 0:
-        row = int(np.argmax(steps <= 0)) + 1
+    if steps.min() < SHORTEST_STEP_S:
+        row = int(np.argmax(steps < SHORTEST_STEP_S)) + 1
         raise fault(
             name,
             track.place(row),
-            f"a time after {time_s[row - 1].item()!r} s",
+            f"a time at least 1 ns after {time_s[row - 1].item()!r} s",
             f"{time_s[row].item()!r} s",
         )
     if np.median(steps) > LONGEST_BRIDGE_S + 1e-9:

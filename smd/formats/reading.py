@@ -6,11 +6,12 @@ from pathlib import Path
 
 from smd.doodle import Doodle, Dropout, Recording
 from smd.formats import aframe, native, tum
-from smd.formats.checks import checked
+from smd.formats.checks import LATEST_S, checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
 from smd.formats.frame import Conversion, SourceFrame
 from smd.formats.text import read_text, require_file
 from smd.formats.tracks import Content, Track, fault, shown
+from smd.geometry.arrays import BoolArray
 from smd.geometry.rotations import normalized
 
 FORMATS = (aframe, native, tum)
@@ -71,13 +72,20 @@ def read_recording(
             name, "", "no quaternion order, as the file names components", str(asked.quaternion)
         )
     conversion = asked.completed(content.frame).conversion()
+    chosen = _chosen(name, content.tracks, device)
+    valid = [checked(name, track, conversion.metres_per_unit) for track in chosen]
+    metadata, zero_s = dict(content.metadata), 0.0
+    if not content.clock_means_something:
+        starts_s = [track.time_s[0].item() for track in content.tracks]
+        zero_s = min(start_s for start_s in starts_s if abs(start_s) <= LATEST_S)
+        metadata["clock_zero_s"] = repr(zero_s)
     doodles: list[Doodle] = []
     dropouts: list[Dropout] = []
-    for track in _chosen(name, content.tracks, device):
-        drawn, lost = _doodles(name, track, conversion)
+    for track, of_numbers in zip(chosen, valid, strict=True):
+        drawn, lost = _doodles(name, track, of_numbers, conversion, zero_s)
         doodles += drawn
         dropouts += lost
-    return Recording(tuple(doodles), name, tuple(dropouts), content.metadata)
+    return Recording(tuple(doodles), name, tuple(dropouts), metadata)
 
 
 def _content(text: str, name: str) -> Content:
@@ -108,12 +116,12 @@ def _chosen(name: str, tracks: tuple[Track, ...], device: str | None) -> tuple[T
 
 
 def _doodles(
-    name: str, track: Track, conversion: Conversion
+    name: str, track: Track, valid: BoolArray, conversion: Conversion, zero_s: float
 ) -> tuple[list[Doodle], tuple[Dropout, ...]]:
     """Return the doodles of one device, and where it was lost."""
-    valid = checked(name, track, conversion.metres_per_unit)
+    time_s = track.time_s - zero_s
     position_m, orientation_xyzw = conversion.poses(track.position, normalized(track.quaternion))
-    tracking = find_dropouts(track.device, track.time_s, position_m, orientation_xyzw, valid)
+    tracking = find_dropouts(track.device, time_s, position_m, orientation_xyzw, valid)
     if not any(len(stretch) > 1 for stretch in tracking.stretches):
         raise fault(
             name,
@@ -123,7 +131,7 @@ def _doodles(
         )
     return [
         Doodle(
-            time_s=track.time_s[rows],
+            time_s=time_s[rows],
             position_m=position_m[rows],
             orientation_xyzw=orientation_xyzw[rows],
             device=track.device,

@@ -41,12 +41,16 @@ class Content:
     tracks : at least one.
     frame : the format's axes, unit and order, complete, for whatever the user leaves open.
     order_is_given : true where the file itself says which component of a rotation is which.
+    clock_means_something : false where time is counted from 1970 or from a program's start; it
+        is then counted from the first pose, and what the clock read there is kept in the
+        metadata as ``clock_zero_s``.
     metadata : what else it says.
     """
 
     tracks: tuple[Track, ...]
     frame: SourceFrame = field(default_factory=SourceFrame.ours)
     order_is_given: bool = False
+    clock_means_something: bool = True
     metadata: Mapping[str, str] = field(default_factory=dict)
 
 

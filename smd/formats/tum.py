@@ -1,8 +1,7 @@
 """TUM trajectories: ``timestamp tx ty tz qx qy qz qw`` on each line, ``#`` for comments [1]_.
 
 The format says neither which axis is up nor where the device faces, so both are taken as ours
-unless the user says otherwise. Timestamps are often seconds since 1970; the clock here starts
-with the first row, and what it read there is kept as ``clock_zero_s``.
+unless the user says otherwise. Timestamps are often seconds since 1970.
 
 References
 ----------
@@ -42,11 +41,9 @@ def read(text: str, name: str) -> Content:
     values = read_table(name, lines, 0, None, COLUMNS, {})
     track = Track(
         device=ONLY_DEVICE,
-        time_s=values[:, 0] - values[0, 0],
+        time_s=values[:, 0],
         position=values[:, 1:4],
         quaternion=values[:, 4:8],
         place=partial(line_of_row, lines, 0),
     )
-    return Content(
-        (track,), SourceFrame.ours(), metadata={"clock_zero_s": repr(values[0, 0].item())}
-    )
+    return Content((track,), SourceFrame.ours(), clock_means_something=False)

@@ -45,7 +45,8 @@ def _neighbours(time_s: FloatArray, at_s: FloatArray) -> tuple[IntArray, IntArra
     nodes = time_s[index]
     weights = _lagrange_weights(nodes, at_s)
     middle_s = 0.5 * (time_s[left] + time_s[left + 1])  # one verdict per interval: no jump inside
-    wild = np.abs(_lagrange_weights(nodes, middle_s)).sum(axis=1) > MOST_NOISE_GAIN
+    gain = np.abs(_lagrange_weights(nodes, middle_s)).sum(axis=1)
+    wild = ~(gain <= MOST_NOISE_GAIN)  # so that NaN, of steps too small to divide by, is wild too
     fraction = (at_s - time_s[left]) / (time_s[left + 1] - time_s[left])
     straight = np.where(index == left[:, None], 1.0 - fraction[:, None], 0.0)
     straight += np.where(index == left[:, None] + 1, fraction[:, None], 0.0)

@@ -87,11 +87,11 @@ def refused(path: Path, **options) -> str:
         ),
         (
             HEADER + GOOD + "0.005,1,2,3,0,0,0,1\n",
-            "line 4: expected a time after 0.01 s, found 0.005 s",
+            "line 4: expected a time at least 1 ns after 0.01 s, found 0.005 s",
         ),
         (
             HEADER + GOOD + "0.01,1,2,3,0,0,0,1\n",
-            "line 4: expected a time after 0.01 s, found 0.01 s",
+            "line 4: expected a time at least 1 ns after 0.01 s, found 0.01 s",
         ),
         (
             HEADER + GOOD + "nan,1,2,3,0,0,0,1\n",
@@ -158,7 +158,7 @@ def refused(path: Path, **options) -> str:
         ),
         (
             json.dumps({"a": {"poses": [POSE, POSE]}}),
-            "device 'a', pose 1: expected a time after 0.0 s, found 0.0 s",
+            "device 'a', pose 1: expected a time at least 1 ns after 0.01 s, found 0.01 s",
         ),
         (
             json.dumps({"a": {"poses": [POSE]}}),
