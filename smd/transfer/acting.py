@@ -7,18 +7,17 @@ from itertools import pairwise
 
 import numpy as np
 
-from smd.character.clip import Clip
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.transfer.gait import standing
 from smd.transfer.move import Move
 from smd.transfer.poses import Poses, mixed, sampled
+from smd.transfer.repertoire import Piece
 from smd.transfer.transitions import TRANSITION_S, carried_over
 
 _STEP_S = 1e-3
 """Time over which the velocities on both sides of a boundary are taken."""
 
 
-def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Clip) -> Poses:
+def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece) -> Poses:
     """Return local poses at each time, with transitions, the ground root left at its origin.
 
     Parameters
@@ -45,17 +44,19 @@ def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Clip) -> Poses:
 
 
 def acted_contacts(
-    moves: Sequence[Move], time_s: FloatArray, idle: Clip, feet: Sequence[int]
+    moves: Sequence[Move], time_s: FloatArray, idle: Piece, feet: Sequence[int]
 ) -> BoolArray:
     """Return when each foot should stand, ``(n, feet)``, as the clips say."""
     clock_s = moves[0].start_s
     stands = np.zeros((len(time_s), len(feet)), dtype=bool)
     for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
         now_s = time_s[rows]
+        frame, idle_frame = move.frame_at(now_s), (now_s - clock_s) * idle.clip.rate_hz
         seen = move.presence_at(now_s) >= 0.5
-        of_move = _contacts(move.clip, move.frame_at(now_s), feet)
-        of_idle = _contacts(idle, (now_s - clock_s) * idle.rate_hz, feet)
-        stands[rows] = np.where(seen[:, None], of_move, of_idle)
+        for column, foot in enumerate(feet):
+            stands[rows, column] = np.where(
+                seen, move.piece.stands_at(foot, frame), idle.stands_at(foot, idle_frame)
+            )
     return stands
 
 
@@ -66,30 +67,21 @@ def rows_of(moves: Sequence[Move], time_s: FloatArray) -> list[slice]:
     return [slice(a, b) for a, b in pairwise(edges)]
 
 
-def _poses(move: Move, time_s: FloatArray, idle: Clip, clock_s: float) -> Poses:
-    poses = sampled(move.clip, move.frame_at(time_s))
+def _poses(move: Move, time_s: FloatArray, idle: Piece, clock_s: float) -> Poses:
+    poses = sampled(move.piece.clip, move.frame_at(time_s))
     presence = move.presence_at(time_s)
     faint = np.flatnonzero(presence < 1.0)
     if len(faint) == 0:
         return poses
-    standing_still = sampled(idle, (time_s[faint] - clock_s) * idle.rate_hz)
+    standing_still = sampled(idle.clip, (time_s[faint] - clock_s) * idle.clip.rate_hz)
     some = Poses(poses.rotation_xyzw[faint], poses.translation_m[faint])
     some = mixed(standing_still, some, presence[faint])
     poses.rotation_xyzw[faint], poses.translation_m[faint] = some
     return poses
 
 
-def _contacts(clip: Clip, frame: FloatArray, feet: Sequence[int]) -> BoolArray:
-    last = len(clip) - 1
-    frame = np.mod(frame, last) if clip.cyclic else np.clip(frame, 0.0, last)
-    nearest = np.round(frame).astype(np.int64)
-    stands = standing(clip)
-    none = np.zeros(len(clip), dtype=bool)
-    return np.stack([stands.get(foot, none)[nearest] for foot in feet], axis=-1)
-
-
 def _joined(
-    before: Move, move: Move, poses: Poses, now_s: FloatArray, idle: Clip, clock_s: float
+    before: Move, move: Move, poses: Poses, now_s: FloatArray, idle: Piece, clock_s: float
 ) -> Poses:
     """Let the difference to the move before die away over this one's first poses."""
     at_s = before.end_s

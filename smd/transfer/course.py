@@ -9,72 +9,53 @@ character stood. Carrying that place along says the same with less.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from actions_library.library import IDLE, Library
-from smd.character.clip import Clip
-from smd.transfer.gait import gait_of, phase_after
+from smd.transfer.gait import phase_after
 from smd.transfer.in_place import gesture, idling, turn, turn_passes, turns
 from smd.transfer.move import Move, Placement, nearest_turn
 from smd.transfer.path import GroundPath
+from smd.transfer.repertoire import Piece, Repertoire
 from smd.transfer.timeline import Span
 from smd.transfer.travelling import along_path, leap
 
 
-def course(spans: Sequence[Span], path: GroundPath, library: Library) -> tuple[Move, ...]:
+def course(spans: Sequence[Span], path: GroundPath, pieces: Repertoire) -> tuple[Move, ...]:
     """Return the moves of a performer.
 
     Places come from the path's differences, headings from the prop itself: the character stands
     where its last phrase left it, and from the next phrase on faces where the prop faces.
     """
-    cast = [_cast(span, library) for span in spans]
     clock_s = spans[0].start_s
     at = Placement(path.at(clock_s), float(path.heading_at(clock_s)))
     moves: list[Move] = []
-    for i, span in enumerate(spans):
-        if span.phrase is None:
+    cast = [None if span.phrase is None else pieces.pieces[span.phrase.action] for span in spans]
+    for i, (span, piece) in enumerate(zip(spans, cast, strict=True)):
+        last = i + 1 == len(spans)
+        if piece is None:
             facing_rad = at.heading_rad
-            if i + 1 < len(spans):
+            if not last:
                 facing_rad = nearest_turn(float(path.heading_at(span.end_s)), at.heading_rad)
-            clip = library.clip(IDLE)
             move = idling(
-                clip, span.start_s, span.end_s, at, facing_rad=facing_rad, clock_s=clock_s
+                pieces.idle, span.start_s, span.end_s, at, facing_rad=facing_rad, clock_s=clock_s
             )
             moves.append(move)
         else:
-            from_gait = i > 0 and cast[i].goes_on_from(cast[i - 1])
-            into_gait = i + 1 < len(spans) and cast[i + 1].goes_on_from(cast[i])
-            before = moves[-1] if from_gait else None
-            moves += _acted(cast[i], span, path, at, before, into_gait=into_gait)
+            before = moves[-1] if i > 0 and _goes_on(cast[i - 1], piece) else None
+            into_gait = not last and _goes_on(piece, cast[i + 1])
+            moves += _acted(piece, span, path, at, before, into_gait=into_gait)
         at = moves[-1].end
     return tuple(moves)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Cast:
-    """What plays a span: a clip, and how it moves over the ground."""
-
-    clip: Clip
-    travels: bool
-    steps: bool
-
-    def goes_on_from(self, before: _Cast) -> bool:
-        """Return whether this goes on along the path without coming to rest after ``before``."""
-        if not (self.travels and before.travels and self.clip.cyclic and before.clip.cyclic):
-            return False
-        return self.clip is before.clip or (self.steps and before.steps)
-
-
-def _cast(span: Span, library: Library) -> _Cast:
-    """Find who plays a span. The clip is neutral; its expression by Effort belongs here."""
-    action = library.action(IDLE if span.phrase is None else span.phrase.action)
-    clip = library.clip(action.name)
-    travels = span.phrase is not None and action.travels
-    return _Cast(clip, travels, travels and clip.cyclic and bool(gait_of(clip).passings))
+def _goes_on(before: Piece | None, after: Piece | None) -> bool:
+    """Return whether one piece goes on along the path after another without coming to rest."""
+    if before is None or after is None or before.gait is None or after.gait is None:
+        return False
+    return before is after or bool(before.gait.passings and after.gait.passings)
 
 
 def _acted(
-    cast: _Cast,
+    piece: Piece,
     span: Span,
     path: GroundPath,
     at: Placement,
@@ -90,37 +71,34 @@ def _acted(
         The move that this one goes on from along the path, if it does.
     """
     assert span.phrase is not None
-    clip, end_s = cast.clip, span.end_s
     # A phrase that goes on from a gait fills the short gap between them, any other waits.
     start_s = span.start_s if before else max(span.start_s, span.phrase.start_s)
-    if cast.travels and clip.cyclic:
+    end_s = span.end_s
+    if piece.gait is not None:
         phase = None
-        if before is not None and cast.steps:
-            phase = phase_after(before.clip, float(before.frame[-1]), clip)
-        return [
-            along_path(
-                clip,
-                path,
-                start_s,
-                end_s,
-                at,
-                phase=phase,
-                from_gait=before is not None,
-                into_gait=into_gait,
-            )
-        ]
-    if cast.travels:
-        return [leap(clip, path, start_s, end_s, at)]
-    facing_rad = nearest_turn(float(path.heading_at(start_s)), at.heading_rad)
-    at = Placement(at.position_m, facing_rad)
-    if not turns(clip):
-        return [gesture(clip, start_s, end_s, at)]
-    prop_turn_rad = float(path.heading_at(end_s) - path.heading_at(start_s))
-    passes = turn_passes(clip, prop_turn_rad)
+        if before is not None and before.piece.gait is not None and piece.gait.passings:
+            ended = float(before.frame[-1]) / before.piece.last_frame
+            phase = phase_after(before.piece.gait, ended, piece.gait)
+        move = along_path(
+            piece,
+            path,
+            start_s,
+            end_s,
+            at,
+            phase=phase,
+            from_gait=before is not None,
+            into_gait=into_gait,
+        )
+        return [move]
+    if piece.travels:
+        return [leap(piece, path, start_s, end_s, at)]
+    at = Placement(at.position_m, nearest_turn(float(path.heading_at(start_s)), at.heading_rad))
+    if not turns(piece):
+        return [gesture(piece, start_s, end_s, at)]
+    passes = turn_passes(piece, float(path.heading_at(end_s) - path.heading_at(start_s)))
+    edges = [start_s + (end_s - start_s) * i / len(passes) for i in range(len(passes) + 1)]
     moves: list[Move] = []
-    for i, turn_rad in enumerate(passes):
-        first_s = start_s + (end_s - start_s) * i / len(passes)
-        last_s = start_s + (end_s - start_s) * (i + 1) / len(passes)
-        moves.append(turn(clip, first_s, last_s, at, turn_rad))
+    for first_s, last_s, turn_rad in zip(edges[:-1], edges[1:], passes, strict=True):
+        moves.append(turn(piece, first_s, last_s, at, turn_rad))
         at = moves[-1].end
     return moves

@@ -22,7 +22,7 @@ from smd.geometry.rotations import quaternion_about, rotate
 from smd.transfer.easing import fading, smootherstep
 from smd.transfer.legs import Leg
 
-LOW_M = 0.02
+LOW_M = 0.01
 """Height up to which a sole counts as on the ground, where the clip says that it stands."""
 
 ROLLING_M = 0.005
@@ -56,7 +56,12 @@ class Footing:
 
 
 def footing(
-    leg: Leg, foot_xyzw: FloatArray, ankle_m: FloatArray, stands: BoolArray, rate_hz: float
+    leg: Leg,
+    foot_xyzw: FloatArray,
+    ankle_m: FloatArray,
+    stands: BoolArray,
+    lift_m: FloatArray,
+    rate_hz: float,
 ) -> Footing:
     """Take the sliding out of a foot, and keep it above the ground.
 
@@ -66,6 +71,8 @@ def footing(
         ``(n, 4)`` and ``(n, 3)`` the foot in the world, as the poses have it.
     stands
         ``(n,)`` when it should stand; it does while it is low enough.
+    lift_m
+        ``(n,)`` how much higher it goes.
     """
     heel, ball = rotate(foot_xyzw, leg.heel_m), rotate(foot_xyzw, leg.ball_m)
     heel_up = ankle_m[:, 1] + heel[:, 1]
@@ -79,17 +86,23 @@ def footing(
     on_ball = 1.0 / (1.0 + np.exp(np.clip((ball_up - heel_up) / ROLLING_M, -50.0, 50.0)))
     slide = _slide(ankle_m + heel, ankle_m + ball, on_ball)
     weight = 1.0 / (STILL_M_S**2 + (rate_hz * np.linalg.norm(slide, axis=-1)) ** 2)
-    along = ball - heel
-    yaw = np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
+    yaw = yaw_of(leg, foot_xyzw)
     turn = _evened(_about_mean(-yaw[:, None], weight, plants), plants, rate_hz)[:, 0]
 
     about = quaternion_about([0.0, 1.0, 0.0], turn)
     slide = _slide(ankle_m + rotate(about, heel), ankle_m + rotate(about, ball), on_ball)
     back = np.concatenate([[[0.0, 0.0]], -np.cumsum(slide, axis=0)[:-1]])
     back = _about_mean(back, weight, plants)
-    shift = _evened(np.stack([back[:, 0], -above, back[:, 1]], axis=-1), plants, rate_hz)
-    shift[:, 1] = np.maximum(shift[:, 1], -above)
-    return Footing(down, shift, turn)
+    aside = _evened(back, plants, rate_hz)
+    # Upward, a foot may leave the ground at once: carried on, its speed would press it down.
+    up = np.maximum(_evened(-above[:, None], plants, 0.0)[:, 0], -above) + lift_m
+    return Footing(down, np.stack([aside[:, 0], up, aside[:, 1]], axis=-1), turn)
+
+
+def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
+    """Return which way a foot points over the ground, about +Y from +Z, without jumps."""
+    along = rotate(foot_xyzw, leg.ball_m - leg.heel_m)
+    return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
 
 
 def plants_of(stands: BoolArray) -> IntArray:
@@ -143,6 +156,7 @@ def _evened(value: FloatArray, plants: IntArray, rate_hz: float) -> FloatArray:
     within = min(LETTING_GO_S * rate_hz, float(n))
     share = smootherstep(passed / whole)[:, None]
     room = np.where((after == 0) | (after == len(plants)), within, np.minimum(whole, within))
+    room = np.maximum(room, 1e-9)
     way = value[leave] + share * (value[land] - value[leave])
     way = way + (room * fading(np.abs(passed) / room))[:, None] * speed[leave]
     way = way - (room * fading(np.abs(left_over) / room))[:, None] * speed[land]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,47 +82,22 @@ class Gait:
         return float(max(round(cycles / unit), 1) * unit)
 
 
-def gait_of(clip: Clip) -> Gait:
-    """Read a travelling cyclic clip's gait."""
-    passings = [
-        Passing(phase, foot)
-        for foot, stands in standing(clip).items()
-        for phase in _middles(~stands[:-1])
-    ]
+def gait_of(clip: Clip, stands: Mapping[int, BoolArray]) -> Gait:
+    """Read a travelling cyclic clip's gait from when each foot stands, by its joint."""
+    passings = [Passing(phase, foot) for foot, on in stands.items() for phase in _middles(~on[:-1])]
     return Gait(clip.travel_m, clip.duration_s, tuple(sorted(passings)))
 
 
-def phase_after(before: Clip, end_frame: float, after: Clip) -> float | None:
+def phase_after(before: Gait, phase: float, after: Gait) -> float | None:
     """Return where a gait goes on from another: where the same foot passes; None if it has none.
 
     Parameters
     ----------
-    end_frame
-        Where ``before`` ended; at one of its own passings.
+    phase
+        Where ``before`` ended; at one of its own passings, perhaps cycles later.
     """
-    phase = end_frame / (len(before) - 1)
-    ended = min(gait_of(before).passings, key=lambda p: abs((p.phase - phase + 0.5) % 1.0 - 0.5))
-    return next((p.phase for p in gait_of(after).passings if p.foot == ended.foot), None)
-
-
-def standing(clip: Clip) -> dict[int, BoolArray]:
-    """Return when each foot stands ``(n,)``, by its joint: it touches, or a joint below does."""
-    feet: dict[int, BoolArray] = {}
-    for joint, touches in zip(clip.contact_joints, clip.contacts.T, strict=True):
-        foot = _foot_of(clip, clip.skeleton.index(joint))
-        feet[foot] = feet[foot] | touches if foot in feet else touches
-    return feet
-
-
-def _foot_of(clip: Clip, joint: int) -> int:
-    """Return the highest contact joint above a contact joint, or itself: toes belong to a foot."""
-    contact = {clip.skeleton.index(name) for name in clip.contact_joints}
-    foot, parent = joint, int(clip.skeleton.parents[joint])
-    while parent >= 0:
-        if parent in contact:
-            foot = parent
-        parent = int(clip.skeleton.parents[parent])
-    return foot
+    ended = min(before.passings, key=lambda p: abs((p.phase - phase + 0.5) % 1.0 - 0.5))
+    return next((p.phase for p in after.passings if p.foot == ended.foot), None)
 
 
 def _middles(signal: BoolArray) -> list[float]:

@@ -55,7 +55,7 @@ def turned(over_ground: FloatArray, angle_rad: FloatArray | float) -> FloatArray
     return np.stack([cosine * x + sine * z, cosine * z - sine * x], axis=-1)
 
 
-def executed(clip: Clip) -> FloatArray:
+def executed(clip: Clip, root: GroundRoot) -> FloatArray:
     """Return the share ``(n,)`` of a clip's travel that is done by each frame.
 
     The ground root stays in place up to the execution's start and from its end on [1]_; in
@@ -69,7 +69,7 @@ def executed(clip: Clip) -> FloatArray:
     start, end = clip.stage_end_frames[_EXECUTION - 1], clip.stage_end_frames[_EXECUTION]
     if end <= start:
         start, end = 0, n - 1
-    steps = np.linalg.norm(np.diff(ground_root(clip).position_m, axis=0), axis=-1)
+    steps = np.linalg.norm(np.diff(root.position_m, axis=0), axis=-1)
     way = np.concatenate([[0.0], np.cumsum(steps)])
     if way[end] - way[start] < 1e-6:
         way = np.arange(n, dtype=np.float64)

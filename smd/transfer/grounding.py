@@ -11,9 +11,10 @@ from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.footing import Footing, footing
+from smd.transfer.footing import Footing, footing, yaw_of
 from smd.transfer.legs import Leg, world_of
 from smd.transfer.poses import Poses
+from smd.transfer.stepping import stepping
 
 SOFTNESS = 0.004
 """Last part of a leg's reach in which it straightens ever more slowly."""
@@ -38,10 +39,11 @@ def grounded(
         ``(n, legs)`` when each foot should stand.
     """
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
+    raw = [world_of(skeleton, leg.foot, rotation, translation) for leg in legs]
+    stands, lift_m = _stepping(legs, raw, stands, rate_hz)
     feet = []
-    for leg, should in zip(legs, stands.T, strict=True):
-        foot_q, ankle = world_of(skeleton, leg.foot, rotation, translation)
-        step = footing(leg, foot_q, ankle, should, rate_hz)
+    for i, (leg, (foot_q, ankle)) in enumerate(zip(legs, raw, strict=True)):
+        step = footing(leg, foot_q, ankle, stands[:, i], lift_m[:, i], rate_hz)
         about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
         feet.append((leg, step, multiply(about, foot_q), ankle + step.shift_m))
     pelvis = _pelvis(skeleton, legs)
@@ -50,6 +52,20 @@ def grounded(
     for leg, _, foot_q, ankle in feet:
         _bring(skeleton, leg, rotation, translation, foot_q, ankle)
     return Poses(rotation, translation)
+
+
+def _stepping(
+    legs: Sequence[Leg],
+    raw: Sequence[tuple[FloatArray, FloatArray]],
+    stands: BoolArray,
+    rate_hz: float,
+) -> tuple[BoolArray, FloatArray]:
+    """Return when feet stand once the steps that standing needs are taken, and their lift."""
+    if not legs:
+        return stands, np.zeros(stands.shape)
+    place = np.stack([ankle[:, [0, 2]] for _, ankle in raw], axis=1)
+    yaw = np.stack([yaw_of(leg, q) for leg, (q, _) in zip(legs, raw, strict=True)], axis=1)
+    return stepping(place, yaw, stands, np.array([leg.left_m for leg in legs]), rate_hz)
 
 
 def _pelvis(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
 from smd.character.kinematics import forward_kinematics
 from smd.character.skeleton import Skeleton
@@ -27,6 +28,7 @@ class Leg:
     limb : thigh and shin.
     heel_m, ball_m : (3,) points of the sole, in the foot's frame.
     ball_height_m : height over the ground of ``ball_m`` when the foot stands flat.
+    left_m : how far to the left the foot is at rest.
     """
 
     upper: int
@@ -36,6 +38,20 @@ class Leg:
     heel_m: FloatArray
     ball_m: FloatArray
     ball_height_m: float
+    left_m: float
+
+
+def feet_of(clip: Clip) -> tuple[int, ...]:
+    """Return the joints of a clip's feet: contact joints below no other one, as toes are."""
+    contact = {clip.skeleton.index(name) for name in clip.contact_joints}
+    feet = []
+    for joint in sorted(contact):
+        above = int(clip.skeleton.parents[joint])
+        while above >= 0 and above not in contact:
+            above = int(clip.skeleton.parents[above])
+        if above < 0:
+            feet.append(joint)
+    return tuple(feet)
 
 
 def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
@@ -69,6 +85,7 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
                 heel_m=rotate(back, heel),
                 ball_m=rotate(back, ball),
                 ball_height_m=float(world_p[foot, 1] + ball[1]),
+                left_m=float(world_p[foot, 0]),
             )
         )
     return tuple(legs)

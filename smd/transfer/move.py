@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from smd.character.clip import Clip
 from smd.geometry.arrays import FloatArray
+from smd.transfer.repertoire import Piece
 
 KNOT_RATE_HZ = 120.0
 """How densely a move is described; twice as dense as any clip or doodle of ours."""
@@ -27,7 +27,7 @@ class Move:
 
     Attributes
     ----------
-    clip : what is seen.
+    piece : what is seen.
     start_s, end_s : on the recording's clock.
     time_s : (k,) increasing; before the first and after the last knot, the move holds still.
     root_m : (k, 2) x and z of the ground root on the stage.
@@ -37,7 +37,7 @@ class Move:
     idles : whether nothing is performed.
     """
 
-    clip: Clip
+    piece: Piece
     start_s: float
     end_s: float
     time_s: FloatArray

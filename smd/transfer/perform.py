@@ -6,7 +6,8 @@ import difflib
 
 import numpy as np
 
-from actions_library.library import IDLE, Library
+from actions_library.library import Library
+from smd.character.character import Character
 from smd.doodle import Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
@@ -15,13 +16,12 @@ from smd.score import Part, Score
 from smd.transfer.acting import acted_contacts, acted_poses
 from smd.transfer.course import course
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.gait import standing
 from smd.transfer.grounding import grounded
-from smd.transfer.legs import legs_of
 from smd.transfer.move import Move
 from smd.transfer.path import ground_path
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
+from smd.transfer.repertoire import Repertoire, repertoire
 from smd.transfer.stage import Stage, stage_for
 from smd.transfer.timeline import timeline
 
@@ -70,8 +70,11 @@ def perform(
     frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
     time_s = start_s + np.arange(frames) / rate_hz
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
+    actions = {phrase.action for part in score.performers for phrase in part.phrases}
+    pieces = repertoire(library, actions)
     actors = tuple(
-        act(part, recording, stage, library, time_s, rate_hz) for part in score.performers
+        act(part, recording, stage, library.character, pieces, time_s, rate_hz)
+        for part in score.performers
     )
     return Performance(rate_hz, start_s, actors, score)
 
@@ -105,23 +108,22 @@ def act(
     part: Part,
     recording: Recording,
     stage: Stage,
-    library: Library,
+    character: Character,
+    pieces: Repertoire,
     time_s: FloatArray,
     rate_hz: float,
 ) -> Actor:
     """Act out one part at even times."""
-    skeleton, idle = library.character.skeleton, library.clip(IDLE)
     doodles = recording.of(part.device)
     path = ground_path(doodles, stage)
-    moves = course(timeline(part, float(time_s[0]), float(time_s[-1])), path, library)
-    poses = placed(acted_poses(moves, time_s, idle), moves, time_s, rate_hz)
-    feet = sorted({foot for move in moves for foot in standing(move.clip)} | set(standing(idle)))
-    legs = legs_of(skeleton, feet)
-    stands = acted_contacts(moves, time_s, idle, [leg.foot for leg in legs])
-    poses = grounded(skeleton, poses, stands, legs, rate_hz)
+    moves = course(timeline(part, float(time_s[0]), float(time_s[-1])), path, pieces)
+    poses = placed(acted_poses(moves, time_s, pieces.idle), moves, time_s, rate_hz)
+    feet = [leg.foot for leg in pieces.legs]
+    stands = acted_contacts(moves, time_s, pieces.idle, feet)
+    poses = grounded(character.skeleton, poses, stands, pieces.legs, rate_hz)
     return Actor(
         device=part.device,
-        character=library.character,
+        character=character,
         rotation_xyzw=sign_continuous(poses.rotation_xyzw),
         translation_m=poses.translation_m,
         doodles=tuple(stage.placed_doodle(doodle) for doodle in doodles),

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from smd.character.clip import Clip
 from smd.geometry.arrays import FloatArray
-from smd.transfer.easing import eased_clock, smootherstep
-from smd.transfer.gait import gait_of
+from smd.transfer.easing import eased_clock, gaussian_smoothed, smootherstep
 from smd.transfer.ground_root import executed
-from smd.transfer.move import Move, Placement, knots, nearest_turn
+from smd.transfer.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
 from smd.transfer.path import GroundPath
+from smd.transfer.repertoire import Piece
 
 NOWHERE_M = 0.05
 """A way on the stage that is no way: less than a foot shifts while standing."""
 
-SETTLING_S = 0.25
-"""Time in which a character that is in full gait where its phrase begins or ends gets going or
-comes to rest; never more than a quarter of the phrase."""
+SETTLING_S = 0.35
+"""Time in which a gait gets going where its phrase begins, and comes to rest where it ends; never
+more than a quarter of the phrase."""
+
+FADING_S = 0.05
+"""Smoothing of how much of a gait is seen: a pause on the way is not dropped into."""
 
 FULL_GAIT_SPEED = 0.4
 """Share of a gait's usual speed above which it is seen in full; below, it fades into standing."""
@@ -28,7 +30,7 @@ third of the phrase."""
 
 
 def along_path(
-    clip: Clip,
+    piece: Piece,
     path: GroundPath,
     start_s: float,
     end_s: float,
@@ -50,7 +52,9 @@ def along_path(
         Whether the phrase before ends, and the one after begins, in full gait along the same
         path, so that there is no coming to rest between them.
     """
-    gait = gait_of(clip)
+    gait = piece.gait
+    if gait is None:
+        raise ValueError(f"{piece.clip.name}: expected a cyclic clip that travels")
     time_s = knots(start_s, end_s)
     clock_s = _settled(path, time_s, from_gait=from_gait, into_gait=into_gait)
     over_ground = path.at(clock_s)
@@ -60,7 +64,9 @@ def along_path(
     if gait.passings:
         share = way_m / way_m[-1] if way_m[-1] > NOWHERE_M else even
         cycles = gait.cycles_for(way_m[-1], end_s - start_s)
-        presence = _speed_presence(time_s, way_m, gait.speed_m_s)
+        presence = _speed_presence(
+            time_s, way_m, gait.speed_m_s, from_gait=from_gait, into_gait=into_gait
+        )
         first = gait.passings[0].phase if phase is None else phase
     else:
         share = even
@@ -69,26 +75,26 @@ def along_path(
         first = 0.0 if phase is None else phase
     heading = path.heading_at(clock_s)
     return Move(
-        clip=clip,
+        piece=piece,
         start_s=start_s,
         end_s=end_s,
         time_s=time_s,
         root_m=at.position_m + over_ground - over_ground[0],
         heading_rad=heading + nearest_turn(heading[0], at.heading_rad) - heading[0],
-        frame=(first + cycles * share) * (len(clip) - 1),
+        frame=(first + cycles * share) * piece.last_frame,
         presence=presence,
     )
 
 
-def leap(clip: Clip, path: GroundPath, start_s: float, end_s: float, at: Placement) -> Move:
+def leap(piece: Piece, path: GroundPath, start_s: float, end_s: float, at: Placement) -> Move:
     """Go along the path with a clip that travels once, such as a jump.
 
     The ground root follows the path, re-timed so that it moves during the clip's execution alone
     and as the clip's own does; it turns on the way as the prop did from start to end.
     """
     time_s = knots(start_s, end_s)
-    frame = (time_s - start_s) / (end_s - start_s) * (len(clip) - 1)
-    share = np.interp(frame, np.arange(len(clip)), executed(clip))
+    frame = (time_s - start_s) / (end_s - start_s) * piece.last_frame
+    share = np.interp(frame, np.arange(len(piece.clip)), executed(piece.clip, piece.root))
     over_ground = path.at(time_s)
     way_m = np.concatenate(
         [[0.0], np.cumsum(np.linalg.norm(np.diff(over_ground, axis=0), axis=-1))]
@@ -96,7 +102,7 @@ def leap(clip: Clip, path: GroundPath, start_s: float, end_s: float, at: Placeme
     clock_s = np.interp(share * way_m[-1], way_m, time_s) if way_m[-1] > NOWHERE_M else time_s
     first, last = path.heading_at(start_s), path.heading_at(end_s)
     return Move(
-        clip=clip,
+        piece=piece,
         start_s=start_s,
         end_s=end_s,
         time_s=time_s,
@@ -132,21 +138,28 @@ def _settled(
     )
 
 
-def _speed_presence(time_s: FloatArray, way_m: FloatArray, usual_m_s: float) -> FloatArray:
+def _speed_presence(
+    time_s: FloatArray, way_m: FloatArray, usual_m_s: float, *, from_gait: bool, into_gait: bool
+) -> FloatArray:
     """Return how much of a gait is seen: none at rest, all of it from a share of its speed."""
-    mean_m_s = way_m[-1] / (time_s[-1] - time_s[0])
+    duration_s = time_s[-1] - time_s[0]
     if way_m[-1] <= NOWHERE_M:
         return np.ones_like(time_s)
     speed = np.gradient(way_m, time_s)
-    return smootherstep(speed / (FULL_GAIT_SPEED * min(usual_m_s, mean_m_s)))
+    full = FULL_GAIT_SPEED * min(usual_m_s, way_m[-1] / duration_s)
+    presence = gaussian_smoothed(smootherstep(speed / full), FADING_S * KNOT_RATE_HZ)
+    settling_s = min(SETTLING_S, 0.25 * duration_s)
+    return presence * _ends(time_s, settling_s, from_same=from_gait, into_same=into_gait)
+
+
+def _ends(time_s: FloatArray, over_s: float, *, from_same: bool, into_same: bool) -> FloatArray:
+    """Return 1, but for a rise from 0 at the start and a fall to 0 at the end, where wanted."""
+    rise = np.ones_like(time_s) if from_same else smootherstep((time_s - time_s[0]) / over_s)
+    fall = np.ones_like(time_s) if into_same else smootherstep((time_s[-1] - time_s) / over_s)
+    return rise * fall
 
 
 def _flight_presence(time_s: FloatArray, *, from_flight: bool, into_flight: bool) -> FloatArray:
     """Return how much of a flight is seen: it leaves the ground at the start and comes back."""
-    take_off_s = min(TAKE_OFF_S, (time_s[-1] - time_s[0]) / 3.0)
-    presence = np.ones_like(time_s)
-    if not from_flight:
-        presence *= smootherstep((time_s - time_s[0]) / take_off_s)
-    if not into_flight:
-        presence *= smootherstep((time_s[-1] - time_s) / take_off_s)
-    return presence
+    over_s = min(TAKE_OFF_S, (time_s[-1] - time_s[0]) / 3.0)
+    return _ends(time_s, over_s, from_same=from_flight, into_same=into_flight)

@@ -1,0 +1,51 @@
+"""Standing: when each foot of a clip bears on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.geometry.arrays import BoolArray
+from smd.geometry.rotations import rotate
+from smd.transfer.legs import Leg, feet_of, world_of
+
+TOUCHING_M = 0.005
+"""Height up to which a point of the sole touches the ground."""
+
+RESTING_M_S = 0.1
+"""Speed up to which a touching point rests: a heel that has landed does, one that drags not."""
+
+
+def standing(clip: Clip, legs: Sequence[Leg]) -> dict[int, BoolArray]:
+    """Return when each foot stands ``(n,)``, by its joint.
+
+    It stands when the clip says that it or a joint below it touches, and also where its heel or
+    its ball rests on the ground next to that: clips label soles and toes, but a step begins on
+    the heel.
+    """
+    labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet_of(clip)}
+    for joint, touches in zip(clip.contact_joints, clip.contacts.T, strict=True):
+        foot = clip.skeleton.index(joint)
+        while foot not in labelled:
+            foot = int(clip.skeleton.parents[foot])
+        labelled[foot] |= touches
+    for leg in legs:
+        if leg.foot in labelled and labelled[leg.foot].any():
+            labelled[leg.foot] |= _rests(clip, leg)
+    return labelled
+
+
+def _rests(clip: Clip, leg: Leg) -> BoolArray:
+    """Return when the heel or the ball of a foot rests on the ground, in the clip's own world."""
+    foot_q, ankle = world_of(clip.skeleton, leg.foot, clip.rotation_xyzw, clip.translation_m)
+    rests = np.zeros(len(clip), dtype=bool)
+    for point_m, height_m in ((leg.heel_m, 0.0), (leg.ball_m, leg.ball_height_m)):
+        place = ankle + rotate(foot_q, point_m)
+        step = np.diff(place, axis=0)
+        still = np.hypot(step[:, 0], step[:, 2]) * clip.rate_hz < RESTING_M_S
+        touches = place[:, 1] - height_m < TOUCHING_M
+        rests[1:] |= still & touches[1:]
+        rests[:-1] |= still & touches[:-1]
+    return rests
