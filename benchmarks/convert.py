@@ -23,8 +23,9 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSkel, Vt
 
 recording, output, frames, joints, actors, points = *sys.argv[1:3], *map(int, sys.argv[3:])
-rows = np.loadtxt(recording, delimiter=",", skiprows=1, usecols=(0, 2, 3, 4, 5, 6, 7, 8),
-                  comments="#")
+with open(recording) as lines:
+    header = next(i for i, line in enumerate(lines) if line[0].isdigit())
+rows = np.loadtxt(recording, delimiter=",", skiprows=header, usecols=(0, 2, 3, 4, 5, 6, 7, 8))
 stage = Usd.Stage.CreateNew(output)
 for actor in range(actors):
     UsdSkel.Root.Define(stage, f"/stage/actor{actor}")
@@ -57,8 +58,8 @@ def timed(name: str, work: Callable[[], Any]) -> Any:
 
 def main() -> None:
     import smd
+    from benchmarks.takes import long_recording
     from smd.formats import write_recording
-    from smd.synthetic.stories import long_recording
 
     print(machine())
     with tempfile.TemporaryDirectory() as folder:

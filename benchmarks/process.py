@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import subprocess
 import sys
-import time
 from dataclasses import dataclass
 from importlib.metadata import version
 from statistics import median
+
+# A child's peak memory counts from what its parent held when it was started, so each command is
+# started from a process that holds next to nothing. Windows has no `resource`: no peak there.
+_STOPWATCH = """
+import json, subprocess, sys, time
+started = time.perf_counter()
+code = subprocess.call(sys.argv[1:], stdout=subprocess.DEVNULL)
+wall_s = time.perf_counter() - started
+try:
+    import resource
+    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+except ImportError:
+    peak = None
+print(json.dumps([code, wall_s, peak]))
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,32 +45,26 @@ class Runs:
 def run(*commands: list[str], times: int = 5) -> list[Runs]:
     """Run the commands in turn, ``times`` each after one warm-up, and measure each process."""
     walls: list[list[float]] = [[] for _ in commands]
-    peaks: list[list[float]] = [[] for _ in commands]
+    peaks: list[float | None] = [None for _ in commands]
     for turn in range(times + 1):
         for index, command in enumerate(commands):
-            started = time.perf_counter()
-            child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-            peak_mib = _wait(child)
-            wall_s = time.perf_counter() - started
-            if child.returncode:
-                raise SystemExit(f"exit code {child.returncode}: {' '.join(command)}")
+            wall_s, peak_mib = _measure(command)
             if turn:
                 walls[index].append(wall_s)
-                peaks[index].append(peak_mib)
-    return [
-        Runs(tuple(wall), max(peak) if all(peak) else None)
-        for wall, peak in zip(walls, peaks, strict=True)
-    ]
+                if peak_mib is not None:
+                    peaks[index] = max(peak_mib, peaks[index] or 0.0)
+    return [Runs(tuple(wall), peak) for wall, peak in zip(walls, peaks, strict=True)]
 
 
-def _wait(child: subprocess.Popen[bytes]) -> float:
-    """Wait for a child and return its peak memory in MiB; 0 where the system does not say."""
-    if not hasattr(os, "wait4"):  # Windows
-        child.wait()
-        return 0.0
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    return usage.ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2)
+def _measure(command: list[str]) -> tuple[float, float | None]:
+    """Run one command; return its wall time in seconds and its peak memory in MiB."""
+    watch = [sys.executable, "-S", "-c", _STOPWATCH, *command]
+    said = subprocess.run(watch, stdout=subprocess.PIPE, check=True, text=True).stdout
+    code, wall_s, peak = json.loads(said)
+    if code:
+        raise SystemExit(f"exit code {code}: {' '.join(command)}")
+    unit = 1024.0**2 if sys.platform == "darwin" else 1024.0  # bytes there, KiB elsewhere
+    return wall_s, None if peak is None else peak / unit
 
 
 def machine() -> str:
