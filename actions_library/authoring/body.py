@@ -42,7 +42,7 @@ def humanoid_character(*, step_m: float = STEP_M) -> Character:
     """
     skeleton = humanoid_skeleton()
     fields = body_fields(step_m)
-    half = half_surface(fields.whole, BODY_TRIANGLES // 2, _face_and_hands_magnified)
+    half = half_surface(fields.skin, BODY_TRIANGLES // 2, _face_and_hands_magnified)
     points, triangles, mirror = mirrored(*half)
     weights = body_weights(points, triangles, mirror, fields, skeleton)
     body = Mesh("body", points, triangles, *strongest(weights), SKIN_RGB)

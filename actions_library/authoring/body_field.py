@@ -252,6 +252,21 @@ class Field:
         """Keep what lies inside a shape that reaches past the grid, rounding the rim."""
         self._apply(shape, lambda a, b: smooth_max(a, b, reach_m))
 
+    def grown(self, amount_m: float) -> Field:
+        """Return a copy whose solid is larger all around."""
+        out = Field(self.box, self.step_m)
+        out.merge(self, 0.0, amount_m)
+        return out
+
+    def shrink(self, amount_m: Callable[[FloatArray, FloatArray, FloatArray], FloatArray]) -> None:
+        """Make the solid slimmer, by an amount that depends on the place (x, y, z)."""
+        x, y, z = (
+            self.step_m * (start + np.arange(size))
+            for start, size in zip(self.first, self.values.shape, strict=True)
+        )
+        amount = amount_m(x[:, None, None], y[None, :, None], z[None, None, :])
+        self.values = self.values + amount.astype(np.float32)
+
     def merge(self, other: Field, reach_m: float, grown_m: float = 0.0) -> None:
         """Unite with another field of the same step, its solid grown by ``grown_m``."""
         block = self._block(other.first, other.first + other.values.shape)

@@ -45,6 +45,9 @@ HIP, KNEE, ANKLE = (0.092, 0.905, 0.000), (0.094, 0.492, 0.008), (0.096, 0.085, 
 SOLE_M = 0.002
 """Height of the bare sole: what shoes leave."""
 
+TUCK_M = 0.010
+"""How much slimmer the body is below its clothes."""
+
 
 @dataclass(frozen=True)
 class BodyFields:
@@ -52,7 +55,8 @@ class BodyFields:
 
     Attributes
     ----------
-    whole : the left half of the body.
+    whole : the left half of the body, as clothes are measured on it.
+    skin : the same, slimmer below the clothes.
     trunk : hips, torso, neck and head alone.
     head : the head alone, without neck.
     arm : the left arm with its hand alone.
@@ -60,6 +64,7 @@ class BodyFields:
     """
 
     whole: Field
+    skin: Field
     trunk: Field
     head: Field
     arm: Field
@@ -86,7 +91,20 @@ def body_fields(step_m: float) -> BodyFields:
     whole.merge(trunk, 0.0)
     whole.merge(leg, 0.045)
     whole.merge(arm, 0.045)
-    return BodyFields(whole, trunk, head, arm, leg)
+    skin = whole.grown(0.0)
+    skin.shrink(_tuck)
+    return BodyFields(whole, skin, trunk, head, arm, leg)
+
+
+def _tuck(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
+    """Return how much slimmer the skin is where clothes cover it: bent cloth must not show it.
+
+    Most of all between the legs, where cloth and skin fold apart in a deep squat.
+    """
+    covered = np.clip((y - 0.13) / 0.05, 0, 1) * np.clip((1.36 - y) / 0.10, 0, 1)
+    covered = covered * np.clip((0.26 - x) / 0.06, 0, 1)
+    crotch = np.clip((0.08 - np.hypot(x, 0.6 * (y - 0.82))) / 0.05, 0, 1)
+    return TUCK_M * (covered + 1.5 * crotch) + 0.0 * z
 
 
 def between(start: Point, end: Point) -> Point:

@@ -25,7 +25,6 @@ from actions_library.authoring.body_shape import (
     FORWARD,
     HIP,
     KNEE,
-    LEG_BOX,
     SHOULDER,
     UP,
     BodyFields,
@@ -39,6 +38,9 @@ FACE_BOX = ((0.0, 1.50, 0.02), (0.09, 1.70, 0.14))
 FACE_STEP_M = 0.001
 SOLE_STEP_M = 0.002
 """What is small or thin has a finer grid of its own."""
+
+EYE_M = (0.033, 1.624)
+"""Where the left eye is, seen from the front."""
 
 HEM_M = 0.040
 """Reach of the rounding where a piece ends."""
@@ -75,16 +77,10 @@ def wardrobe(body: BodyFields) -> list[Piece]:
         Piece("soles", _soles(), 2000, (0.78, 0.76, 0.72)),
         Piece("hair", _hair(body), 2600, (0.055, 0.028, 0.016), on_head=True),
         Piece("eyes", _eyes(body), 600, (0.012, 0.010, 0.010), on_head=True),
+        Piece("glints", _glints(body), 160, (0.9, 0.9, 0.9), on_head=True),
         Piece("brows", _brows(body), 500, (0.055, 0.028, 0.016), on_head=True),
         Piece("mouth", _mouth(body), 400, (0.28, 0.085, 0.065), on_head=True),
     ]
-
-
-def _grown(part: Field, amount_m: float) -> Field:
-    """Return a copy of a field whose solid is larger all around."""
-    out = Field(part.box, part.step_m)
-    out.merge(part, 0.0, amount_m)
-    return out
 
 
 def _shirt(body: BodyFields) -> Field:
@@ -99,12 +95,15 @@ def _shirt(body: BodyFields) -> Field:
         (1.320, 0.118, 0.116, 0.160, 0.160, -0.002, 0.0),
         (1.370, 0.100, 0.110, 0.140, 0.140, -0.006, 0.0),
     ]
-    shirt = _grown(body.trunk, 0.008)
+    shirt = body.trunk.grown(0.008)
     shirt.add(Loft((0.0, 0.0, 0.0), UP, FORWARD, loose, (0.02, 0.05), 2.3), 0.03)
+    over_trousers = body.trunk.grown(0.018)
+    over_trousers.keep(HalfSpace((0.0, 1.02, 0.0), UP), 0.10)
+    shirt.merge(over_trousers, 0.02)
     shirt.keep(HalfSpace((0.0, 0.905, 0.0), DOWN), HEM_M)
     shirt.keep(HalfSpace((0.0, 1.510, 0.0), UP), HEM_M)
     shirt.carve(RoundCone((0.0, 1.495, -0.005), (0.0, 1.640, 0.020), 0.078, 0.110), HEM_M)
-    sleeve = _grown(body.arm, 0.009)
+    sleeve = body.arm.grown(0.009)
     wide = [
         (0.02, 0.058, 0.058, 0.058, 0.056, 0.0, 0.0),
         (0.20, 0.062, 0.062, 0.058, 0.060, 0.0, 0.0),
@@ -131,16 +130,13 @@ def _trousers(body: BodyFields) -> Field:
         (0.30, 0.054, 0.060, 0.054, 0.052, 0.0, 0.0),
         (0.42, 0.052, 0.058, 0.052, 0.049, 0.0, 0.0),
     ]
-    legs = Field(LEG_BOX, body.leg.step_m)
-    legs.merge(body.leg, 0.0, 0.006)
+    legs = body.leg.grown(0.008)
     legs.add(Loft(HIP, between(HIP, KNEE), FORWARD, loose_leg, (0.03, 0.02)), 0.02)
     legs.add(Loft(KNEE, between(KNEE, ANKLE), FORWARD, loose_shin, (0.02, 0.02)), 0.02)
-    legs.keep(HalfSpace((0.0, 0.090, 0.0), DOWN), HEM_M)
     legs.keep(HalfSpace((0.005, 0.0, 0.0), (-1.0, 0.0, 0.0)), 0.010)
-    seat = Field(LEG_BOX, body.leg.step_m)
-    seat.merge(body.trunk, 0.0, 0.006)
-    seat.keep(HalfSpace((0.0, 1.020, 0.0), UP), HEM_M)
-    legs.merge(seat, 0.035)
+    legs.merge(body.whole, 0.02, 0.009)
+    legs.keep(HalfSpace((0.0, 0.090, 0.0), DOWN), HEM_M)
+    legs.keep(HalfSpace((0.0, 1.020, 0.0), UP), HEM_M)
     return legs
 
 
@@ -187,8 +183,8 @@ def _soles() -> Field:
 
 def _hair(body: BodyFields) -> Field:
     """Return short hair, combed back, fuller above the brow."""
-    hair = _grown(body.head, 0.010)
-    hair.add(Ellipsoid((0.0, 1.688, -0.016), (0.080, 0.066, 0.094)), 0.03)
+    hair = body.head.grown(0.010)
+    hair.add(Ellipsoid((0.0, 1.690, -0.014), (0.080, 0.066, 0.092)), 0.03)
     hair.add(RoundCone((0.008, 1.722, 0.066), (0.040, 1.722, 0.048), 0.024, 0.020), 0.03)
     # The face stays free: below the hairline, before the ears.
     hair.carve(Ellipsoid((0.0, 1.600, 0.118), (0.085, 0.104, 0.082)), 0.012)
@@ -206,10 +202,15 @@ def _front_z_m(head: Field, x: float, y: float) -> float:
 
 def _eyes(body: BodyFields) -> Field:
     """Return the left eye, a dark oval."""
-    x, y = 0.033, 1.624
-    eye = Field(FACE_BOX, FACE_STEP_M)
-    eye.add(Ellipsoid((x, y, _front_z_m(body.trunk, x, y) - 0.002), (0.0105, 0.0150, 0.008)), 0.0)
-    return eye
+    centre = (*EYE_M, _front_z_m(body.trunk, *EYE_M) - 0.002)
+    return united(FACE_BOX, FACE_STEP_M, [(Ellipsoid(centre, (0.0105, 0.0150, 0.008)), 0.0)])
+
+
+def _glints(body: BodyFields) -> Field:
+    """Return the light in the left eye."""
+    x, y = EYE_M[0] - 0.003, EYE_M[1] + 0.005
+    z = _front_z_m(body.trunk, *EYE_M) + 0.0042
+    return united(FACE_BOX, FACE_STEP_M, [(Ellipsoid((x, y, z), (0.0026, 0.0032, 0.0020)), 0.0)])
 
 
 def _strip(body: BodyFields, places: FloatArray, radii: FloatArray) -> Parts:
@@ -223,13 +224,13 @@ def _strip(body: BodyFields, places: FloatArray, radii: FloatArray) -> Parts:
 
 def _brows(body: BodyFields) -> Field:
     """Return the left eyebrow."""
-    places = np.array([[0.017, 1.648], [0.026, 1.652], [0.037, 1.653], [0.048, 1.648]])
+    places = np.array([[0.018, 1.651], [0.027, 1.6545], [0.038, 1.6545], [0.049, 1.648]])
     radii = np.array([0.0036, 0.0040, 0.0036, 0.0024])
     return united(FACE_BOX, FACE_STEP_M, _strip(body, places, radii))
 
 
 def _mouth(body: BodyFields) -> Field:
     """Return the line between the lips, a small smile."""
-    places = np.array([[0.0, 1.5640], [0.008, 1.5642], [0.015, 1.5655], [0.021, 1.5685]])
+    places = np.array([[0.0, 1.5635], [0.009, 1.5640], [0.017, 1.5660], [0.0235, 1.5700]])
     radii = np.array([0.0024, 0.0024, 0.0021, 0.0015])
     return united(FACE_BOX, FACE_STEP_M, _strip(body, places, radii))
