@@ -33,7 +33,7 @@ def matches(head: str) -> bool:
 
 
 def read(text: str, name: str) -> Content:
-    """Return a track for every device that has poses; one named ``camera`` is the headset.
+    """Return a track for every device that has poses; the one named ``camera`` is the headset.
 
     Raises
     ------
@@ -64,6 +64,7 @@ def read(text: str, name: str) -> Content:
             time_s=rows[:, 0] / 1000.0,
             position=rows[:, 1:4],
             quaternion=_quaternion_from_degrees(rows[:, 4:7]),
+            drawing=np.ones(len(rows), bool),
             place=partial(_place, device),
         )
         for device, rows in numbers.items()

@@ -27,7 +27,7 @@ from smd.files import replacing
 from smd.formats.frame import SourceFrame
 from smd.formats.table import Encoder, cells, is_row, line_of_row, number, read_table
 from smd.formats.tracks import Content, Track, fault, shown
-from smd.geometry.arrays import IntArray
+from smd.geometry.arrays import FloatArray, IntArray
 
 SCHEMA = "smd.recording"
 VERSION = 1
@@ -37,7 +37,6 @@ ONLY_DEVICE = "prop"
 _POSITION = ("x", "y", "z")
 _QUATERNION = ("qx", "qy", "qz", "qw")
 _TIMES = ("time_s", "t", "time", "timestamp")
-_HEADERLESS = ("time_s", *_POSITION, "q1", "q2", "q3", "q4")
 _TRUTH = {"1": 1.0, "true": 1.0, "1.0": 1.0, "0": 0.0, "false": 0.0, "0.0": 0.0}
 
 
@@ -56,54 +55,51 @@ def read(text: str, name: str) -> Content:
         If columns are missing, or a row or cell is not what its column says.
     """
     lines = text.split("\n")
-    first = next(i for i, line in enumerate(lines) if is_row(line))
-    metadata = _metadata(name, lines[:first])
-    header = [cell.lower() for cell in cells(lines[first], ",")]
+    head = next(i for i, line in enumerate(lines) if is_row(line))
+    header = [cell.lower() for cell in cells(lines[head], ",")]
     headerless = _is_number(header[0])
-    if headerless:
-        columns: Sequence[str] = _HEADERLESS
-        if len(header) != len(columns):
-            raise fault(
-                name,
-                f"line {first + 1}",
-                f"a header, or {len(columns)} columns (time, position, quaternion)",
-                f"{len(header)} columns without a header",
-            )
-    else:
-        columns = _known(name, first, header)
-        first += 1
+    columns = _positional(name, head, header) if headerless else _named(name, head, header)
+    first = head if headerless else head + 1
     devices: dict[str, float] = {}
-    encoders: dict[int | str, Encoder] = {}
-    for i, column in enumerate(columns):
-        if column == "device":
-            encoders[i] = _device_encoder(devices)
-        elif column == "drawing":
-            encoders[i] = _drawing
-        elif column not in (*_HEADERLESS, *_QUATERNION):
-            encoders[i] = _anything
-    values = read_table(name, lines, first, ",", columns, encoders)
+    values = read_table(name, lines, first, ",", columns, _encoders(columns, devices))
     where = {column: i for i, column in enumerate(columns)}
-    quaternion = _HEADERLESS[4:] if headerless else _QUATERNION
+    drawing = values[:, where["drawing"]] > 0 if "drawing" in where else np.ones(len(values), bool)
     code = values[:, where["device"]] if "device" in where else np.zeros(len(values))
-    tracks = []
-    for device, number_of_device in (devices or {ONLY_DEVICE: 0.0}).items():
-        rows = np.flatnonzero(code == number_of_device)
-        tracks.append(
-            Track(
-                device=device,
-                time_s=values[rows, where["time_s"]],
-                position=values[rows][:, [where[column] for column in _POSITION]],
-                quaternion=values[rows][:, [where[column] for column in quaternion]],
-                drawing=values[rows, where["drawing"]] > 0.0 if "drawing" in where else None,
-                place=partial(_place, lines, first, rows),
-            )
+    position = values[:, [where[column] for column in _POSITION]]
+    quaternion = values[:, [where[column] for column in _QUATERNION]]
+    tracks = [
+        Track(
+            device=device,
+            time_s=values[rows, where["time_s"]],
+            position=position[rows],
+            quaternion=quaternion[rows],
+            drawing=drawing[rows],
+            place=partial(_place, lines, first, rows),
         )
+        for device, rows in zip(devices or [ONLY_DEVICE], _groups(code), strict=True)
+    ]
     return Content(
         tracks=tuple(tracks),
         frame=SourceFrame.ours(),
         order_is_given=not headerless,
-        metadata=metadata,
+        metadata=_metadata(name, lines[:head]),
     )
+
+
+def _groups(code: FloatArray) -> list[IntArray]:
+    """Return the rows of each code 0, 1, 2 …, in order."""
+    order = np.argsort(code, kind="stable")
+    return np.split(order, np.cumsum(np.bincount(code.astype(np.int64)))[:-1])
+
+
+def _encoders(columns: Sequence[str], devices: dict[str, float]) -> dict[int | str, Encoder]:
+    """Return how to read the columns that do not hold numbers; ``devices`` collects names."""
+    known: dict[str, Encoder] = {"device": _device_encoder(devices), "drawing": _drawing}
+    return {
+        i: known.get(column, _anything)
+        for i, column in enumerate(columns)
+        if column not in ("time_s", *_POSITION, *_QUATERNION)
+    }
 
 
 def _place(lines: Sequence[str], first: int, rows: IntArray, i: int) -> str:
@@ -124,11 +120,7 @@ def write_recording(recording: Recording, path: str | Path) -> None:
     ExportError
         If the file cannot be written.
     """
-    drawing = [
-        np.ones(len(doodle), bool) if doodle.drawing is None else doodle.drawing
-        for doodle in recording.doodles
-    ]
-    always = all(drawn.all() for drawn in drawing)
+    always = all(doodle.drawing.all() for doodle in recording.doodles)
     header = ["time_s", "device", *_POSITION, *_QUATERNION, *([] if always else ["drawing"])]
     with replacing(Path(path)) as temporary, temporary.open("w", encoding="utf-8", newline="") as f:
         f.write(f"# schema: {SCHEMA}\n# version: {VERSION}\n")
@@ -136,11 +128,11 @@ def write_recording(recording: Recording, path: str | Path) -> None:
             f.write(f"# {_writable_key(key)}: {' '.join(value.split())}\n")
         rows = csv.writer(f, lineterminator="\n")
         rows.writerow(header)
-        for doodle, drawn in zip(recording.doodles, drawing, strict=True):
+        for doodle in recording.doodles:
             device = _writable_device(doodle.device)
             pose = np.column_stack([doodle.position_m, doodle.orientation_xyzw])
             for time_s, numbers, mark in zip(
-                doodle.time_s.tolist(), pose.tolist(), drawn.tolist(), strict=True
+                doodle.time_s.tolist(), pose.tolist(), doodle.drawing.tolist(), strict=True
             ):
                 rows.writerow([time_s, device, *numbers, *([] if always else [int(mark)])])
 
@@ -160,7 +152,23 @@ def _metadata(name: str, lines: Sequence[str]) -> dict[str, str]:
     return metadata
 
 
-def _known(name: str, index: int, header: Sequence[str]) -> list[str]:
+def _positional(name: str, index: int, cells_found: Sequence[str]) -> Sequence[str]:
+    """Return the columns of a file without a header, or raise if it has more or fewer.
+
+    The last four are a quaternion in an order that the file does not say.
+    """
+    columns = ("time_s", *_POSITION, *_QUATERNION)
+    if len(cells_found) != len(columns):
+        raise fault(
+            name,
+            f"line {index + 1}",
+            f"a header, or {len(columns)} columns (time, position, quaternion)",
+            f"{len(cells_found)} columns without a header",
+        )
+    return columns
+
+
+def _named(name: str, index: int, header: Sequence[str]) -> Sequence[str]:
     """Return the header with one name for time, or raise what it lacks or repeats."""
     columns = ["time_s" if cell in _TIMES else cell for cell in header]
     wanted = ("time_s", *_POSITION, *_QUATERNION)

@@ -23,9 +23,6 @@ SUFFIXES = (".csv", ".json", ".tum")
 READABLE = (*SUFFIXES, ".txt")
 """Suffixes that are read when a file is named: text may be a table of poses, or prose."""
 
-HEADSETS = ("camera",)
-"""Devices that are worn and not played with; they are read only when asked for."""
-
 _HEAD = 65_536  # characters by which formats know their files
 
 
@@ -45,7 +42,7 @@ def read_recording(
     frame
         What the numbers mean, where the format's own answer is not right.
     device
-        Read this device alone. By default all but headsets (``camera``) are read.
+        Read this device alone.
 
     Returns
     -------
@@ -103,15 +100,12 @@ def _content(text: str, name: str) -> Content:
 
 def _chosen(name: str, tracks: tuple[Track, ...], device: str | None) -> tuple[Track, ...]:
     """Return the tracks to read."""
-    if device is not None:
-        chosen = tuple(track for track in tracks if track.device == device)
-        found = f"only {', '.join(repr(track.device) for track in tracks)}"
-    else:
-        chosen = tuple(track for track in tracks if track.device not in HEADSETS)
-        found = "only a headset"
+    if device is None:
+        return tracks
+    chosen = tuple(track for track in tracks if track.device == device)
     if not chosen:
-        wanted = "a device to play with" if device is None else f"device {device!r}"
-        raise fault(name, "", wanted, found)
+        found = f"only {', '.join(repr(track.device) for track in tracks)}"
+        raise fault(name, "", f"device {device!r}", found)
     return chosen
 
 
@@ -135,7 +129,7 @@ def _doodles(
             position_m=position_m[rows],
             orientation_xyzw=orientation_xyzw[rows],
             device=track.device,
-            drawing=None if track.drawing is None else track.drawing[rows],
+            drawing=track.drawing[rows],
         )
         for rows in tracking.stretches
     ], tracking.dropouts

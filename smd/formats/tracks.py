@@ -20,16 +20,16 @@ class Track:
     time_s : (n,).
     position : (n, 3) in the file's axes and unit; NaN where the file has no number.
     quaternion : (n, 4) in the file's axes and order; NaN where the file has no number.
+    drawing : (n,) bool; all true where the file does not say.
     place : where row i stands in the file, for messages ("line 12").
-    drawing : (n,) bool, or None where the file does not say.
     """
 
     device: str
     time_s: FloatArray
     position: FloatArray
     quaternion: FloatArray
+    drawing: BoolArray
     place: Callable[[int], str]
-    drawing: BoolArray | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

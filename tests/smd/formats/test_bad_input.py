@@ -153,10 +153,6 @@ def refused(path: Path, **options) -> str:
             "found 1",
         ),
         (
-            json.dumps({"camera": {"poses": [POSE, POSE]}}),
-            "expected a device to play with, found only a headset",
-        ),
-        (
             json.dumps({"a": {"poses": [POSE, POSE]}}),
             "device 'a', pose 1: expected a time at least 1 ns after 0.01 s, found 0.01 s",
         ),

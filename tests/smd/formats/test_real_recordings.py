@@ -43,10 +43,10 @@ def test_aframe_json_agrees_with_its_table(shared_data, session, device):
     assert_allclose(rotvec_from_quaternion(off), 0.0, atol=5e-6)
 
 
-def test_aframe_reads_hands_and_leaves_the_headset_out(shared_data):
+def test_aframe_reads_every_device_of_both_layouts(shared_data):
     raw = shared_data / "controllers" / "aframe" / "raw"
-    assert read_recording(raw / "dance.json").devices == ("leftHand", "rightHand")
-    assert read_recording(raw / "tracked-recording.json").devices == ("right", "left")
+    assert read_recording(raw / "dance.json").devices == ("camera", "leftHand", "rightHand")
+    assert read_recording(raw / "tracked-recording.json").devices == ("camera", "right", "left")
 
 
 def test_idle_hands_are_split_where_tracking_was_lost_and_no_leap_is_left(shared_data):
