@@ -21,13 +21,14 @@ import numpy as np
 
 from laban.motion import FloatArray
 
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Calibration:
     """A rising line through knots, held beyond its ends.
 
     Attributes
     ----------
-    log_odds : (k,) increasing.
+    log_odds : (k,) never falling.
     reading : (k,) in [-1, 1], never falling.
     """
 

@@ -2,8 +2,8 @@
 
 25 signals, each with its mean and standard deviation over the span [1]_: 18 in the moving
 frame (left, up, front; linear and angular; speed, acceleration, jerk) and 7 of the path in the
-world. `FEATURES` is the one table of them, in the order of the vector; ``python -m
-laban.features`` prints it for the docs.
+world. `FEATURES` is the one table of them, in the order of the vector; ``python -m laban``
+prints it for the docs.
 
 How the paper is read where it leaves a choice:
 
@@ -212,7 +212,3 @@ def feature_table() -> str:
         formula = signal.formula.replace("|", "\\|")
         rows.append(f"| {2 * i}, {2 * i + 1} | `{signal.name}` | {signal.unit} | {formula} |")
     return "\n".join(rows) + "\n"
-
-
-if __name__ == "__main__":
-    print(feature_table(), end="")

@@ -23,10 +23,10 @@ from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
 from smd.synthetic.efforts import labelled_takes
 
-SIMULATED_PEOPLE = 24
-SIMULATED_REPEATS = 6
+SIMULATED_PEOPLE = 48
+SIMULATED_REPEATS = 3
 SIMULATED_SEED = 20191028
-"""The simulated corpus of the shipped model: 24 people, 9 pairs of Efforts, 6 takes of each."""
+"""The simulated corpus of the shipped model: 48 people, 9 pairs of Efforts, 3 takes of each."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,188 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from laban import AXES, Effort, LabanError, load_effort_model
+from smd.doodle import Doodle, Recording
+from smd.effort import (
+    SIMULATED_PEOPLE,
+    SIMULATED_REPEATS,
+    SIMULATED_SEED,
+    ManifestRow,
+    read_manifest,
+    recording_efforts,
+    report_lines,
+    simulated_examples,
+    train_manifest,
+)
+from smd.errors import DoodleError, RecordingError
+from smd.synthetic.efforts import labelled_takes
+
+HEADER = "file,time,weight,space,flow,performer\n"
+
+
+@pytest.fixture
+def manifest(tmp_path):
+    """Write a manifest beside two empty recordings, a.csv and b.csv."""
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).touch()
+
+    def write(text: str):
+        path = tmp_path / "manifest.csv"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def line(*, seconds=1.0, device="prop", start_s=0.0):
+    time_s = start_s + np.arange(0.0, seconds, 1 / 90)
+    position = np.stack([0 * time_s, 0 * time_s, 0.1 * np.sin(3 * time_s)], axis=1)
+    return Doodle(time_s, position, np.tile([0.0, 0, 0, 1], (len(time_s), 1)), device=device)
+
+
+def test_words_become_numbers_and_nothing_becomes_unlabelled(manifest, tmp_path):
+    rows = read_manifest(
+        manifest(HEADER + "a.csv,sudden,light,,neutral,Ann\nb.csv, Sustained ,,direct,,Bob\n")
+    )
+    assert [row.performer for row in rows] == ["Ann", "Bob"]
+    assert rows[0].path == tmp_path / "a.csv"
+    np.testing.assert_array_equal(rows[0].meant, [1.0, -1.0, np.nan, 0.0])
+    np.testing.assert_array_equal(rows[1].meant, [-1.0, np.nan, 1.0, np.nan])
+
+
+def test_columns_come_in_any_order_and_axes_may_be_absent(manifest):
+    rows = read_manifest(manifest("performer,file,flow\nAnn,a.csv,bound\n"))
+    np.testing.assert_array_equal(rows[0].meant, [np.nan, np.nan, np.nan, 1.0])
+
+
+def test_a_byte_order_mark_is_not_part_of_the_first_column(manifest):
+    assert len(read_manifest(manifest("\ufeff" + HEADER + "a.csv,sudden,,,,Ann\n"))) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "expected the columns file"),
+        ("file,time\n", "expected the columns file.*found file, time"),
+        (HEADER, "at least one take"),
+        (HEADER + "a.csv,quick,,,,Ann\n", "line 2: time: expected sustained, sudden, neutral"),
+        (HEADER + "a.csv,sudden,,,,Ann\nb.csv,,sudden,,,Ann\n", "line 3: weight: .*got 'sudden'"),
+        (HEADER + "a.csv,sudden,,,,\n", "line 2: performer: expected a name"),
+        (HEADER + "c.csv,sudden,,,,Ann\n", "line 2: file: expected a recording, .*c.csv is not"),
+        (HEADER + ",sudden,,,,Ann\n", "line 2: file: expected a recording, found nothing"),
+        (HEADER + "a.csv\n", "line 2: performer: expected a name"),
+    ],
+)
+def test_a_faulty_manifest_is_refused_by_line(manifest, text, said):
+    with pytest.raises(LabanError, match=said):
+        read_manifest(manifest(text))
+
+
+def test_a_manifest_that_is_not_there_is_said_so(tmp_path):
+    with pytest.raises(LabanError, match=r"absent\.csv: expected a manifest"):
+        read_manifest(tmp_path / "absent.csv")
+
+
+def test_labels_that_cannot_do_are_refused_before_a_recording_is_read(manifest):
+    def read(path):
+        raise AssertionError("read a recording")
+
+    with pytest.raises(LabanError, match=r"manifest\.csv: time: expected 'sustained' takes of at"):
+        train_manifest(manifest(HEADER + "a.csv,sudden,,,,Ann\n"), read)
+
+
+@pytest.fixture
+def played(tmp_path):
+    """A manifest of simulated takes, and a reader that knows their recordings."""
+    takes = [t for t in labelled_takes(people=4, repeats=2, seed=5) if t.effort.weight == 0]
+    lines, doodles = [], {}
+    words = {-1.0: "sustained", 0.0: "neutral", 1.0: "sudden"}
+    for i, take in enumerate(takes):
+        (tmp_path / f"{i}.csv").touch()
+        doodles[tmp_path / f"{i}.csv"] = Recording((take.doodle,))
+        lines.append(f"{i}.csv,{words[take.effort.time]},,,,{take.player}\n")
+    path = tmp_path / "manifest.csv"
+    path.write_text(HEADER + "".join(lines), encoding="utf-8")
+    return path, doodles
+
+
+def test_a_manifest_trains_the_axes_that_it_labels(played):
+    path, doodles = played
+    seen: list[ManifestRow] = []
+
+    def progress(rows):
+        for row in rows:
+            seen.append(row)
+            yield row
+
+    training = train_manifest(path, doodles.__getitem__, progress=progress)
+    assert tuple(training.model.axes) == ("time",)
+    assert training.model.axes["time"].examples == (8, 8, 8)
+    assert "24 takes of 4 performers" in training.model.trained_on
+    assert len(seen) == 24
+    assert report_lines(training)[0].startswith("time: ")
+
+
+def test_a_take_that_is_split_is_refused(played):
+    path, doodles = played
+    first = next(iter(doodles))
+    doodles[first] = Recording((line(), line(start_s=9.0)))
+    with pytest.raises(RecordingError, match=r"0\.csv: expected a take of one doodle, got 2"):
+        train_manifest(path, doodles.__getitem__)
+
+
+def test_a_take_that_is_too_short_is_refused_by_file(played):
+    path, doodles = played
+    doodles[next(iter(doodles))] = Recording((line(seconds=0.02),))
+    with pytest.raises(DoodleError, match=r"0\.csv: device"):
+        train_manifest(path, doodles.__getitem__)
+
+
+def test_every_doodle_of_a_recording_is_read_and_a_short_one_has_no_effort():
+    recording = Recording((line(device="left"), line(device="right", seconds=0.02)))
+    (left, moving), (right, short) = recording_efforts(recording, load_effort_model())
+    assert (left.device, right.device) == ("left", "right")
+    assert moving.time is not None
+    assert short == Effort()
+
+
+def test_simulated_examples_label_time_and_weight_alone():
+    examples = simulated_examples(people=2, repeats=1, seed=0)
+    labelled = dict(zip(AXES, np.isfinite(examples.meant).all(axis=0), strict=True))
+    assert labelled == {"time": True, "weight": True, "space": False, "flow": False}
+    assert examples.features.shape == (18, 50)
+
+
+def test_the_shipped_model_was_made_by_its_command_from_these_people():
+    model = load_effort_model()
+    takes = SIMULATED_PEOPLE * SIMULATED_REPEATS * 3
+    assert model.seed == SIMULATED_SEED
+    for part in model.axes.values():
+        assert part.examples == (takes, takes, takes)
+        assert part.performers == SIMULATED_PEOPLE
+
+
+def test_the_shipped_model_tells_people_it_has_not_met():
+    examples = simulated_examples(people=12, repeats=2, seed=SIMULATED_SEED + 1)
+    model = load_effort_model()
+    for column, axis, least in ((0, "time", 0.75), (1, "weight", 0.65)):
+        meant = examples.meant[:, column]
+        reading = np.array([model.axes[axis].value(row) for row in examples.features])
+        poles = meant != 0
+        assert np.mean((reading[poles] > 0) == (meant[poles] > 0)) > least
+        assert abs(reading[~poles].mean()) < 0.2
+        assert reading[meant < 0].mean() < reading[~poles].mean() < reading[meant > 0].mean()
+
+
+def test_real_people_are_told_apart_by_a_model_of_other_real_people(shared_data):
+    from smd.formats import SourceFrame, read_recording
+
+    def read(path):
+        return read_recording(path, SourceFrame.from_options(up="z"))
+
+    training = train_manifest(shared_data / "laban" / "manifest.csv", read)
+    assert tuple(training.model.axes) == AXES
+    assert training.reports["time"].accuracy >= 0.75
+    assert training.reports["weight"].accuracy >= 0.65
