@@ -38,6 +38,15 @@ class Via:
 
 
 @dataclass(frozen=True, slots=True)
+class OnBall:
+    """A standing foot on its ball at a time (s): toes down (°), and turned left on the spot (°)."""
+
+    at: float
+    pitch: float
+    turn: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Plant:
     """A foot's stand on the ground.
 
@@ -49,6 +58,7 @@ class Plant:
     flat : how long after landing the whole sole is down (s).
     leave_pitch : of the foot when it leaves, rolling over the ball (°).
     roll : how long before leaving the heel begins to rise (s).
+    on_ball : keys of rising onto the ball and turning on it while it stands; the first at pitch 0.
     swing : the way through the air that led here.
     """
 
@@ -61,6 +71,7 @@ class Plant:
     flat: float = 0.10
     leave_pitch: float = 0.0
     roll: float = 0.20
+    on_ball: tuple[OnBall, ...] = ()
     swing: tuple[Via, ...] = (Via(0.5, 0.06),)
 
 
@@ -82,6 +93,12 @@ class FootPath:
     toes_up_rad: FloatArray
     sole_down: BoolArray
     toes_down: BoolArray
+
+
+def other_foot(plant: Plant) -> Plant:
+    """Return the plant's mirror image, for the other foot."""
+    turned = tuple(replace(key, turn=-key.turn) for key in plant.on_ball)
+    return replace(plant, left=-plant.left, yaw=-plant.yaw, on_ball=turned)
 
 
 def repeated(plants: Sequence[Plant], period_s: float, *, left: float, ahead: float) -> list[Plant]:
@@ -158,14 +175,28 @@ def _standing(plant: Plant, shape: FootShape, time_s: FloatArray) -> FloatArray:
     since = np.clip((time_s - plant.land) / plant.flat, 0.0, 1.0)
     until = np.clip((time_s - plant.leave + plant.roll) / plant.roll, 0.0, 1.0)
     pitch = np.radians(plant.land_pitch * (1.0 - since) ** 2 + plant.leave_pitch * until**2)
+    turn = np.zeros_like(pitch)
+    if plant.on_ball:
+        pitch = pitch + _between_keys(plant.on_ball, "pitch", time_s)
+        turn = _between_keys(plant.on_ball, "turn", time_s)
     yaw = np.full_like(pitch, np.radians(plant.yaw))
     flat = _foot_rotation(yaw, np.zeros_like(yaw))
+    yaw = yaw + turn
     rolled = _foot_rotation(yaw, pitch)
-    pivot = np.where(pitch[:, None] > 0.0, shape.ball, shape.heel)
+    pivot = np.where((pitch[:, None] > 0.0) | (turn[:, None] != 0.0), shape.ball, shape.heel)
     stand = np.array([plant.left, shape.ankle_height, plant.ahead])
     ankle = stand + rotate(flat, pivot) - rotate(rolled, pivot)
     toes = np.maximum(pitch, 0.0)
     return np.column_stack([ankle, yaw, pitch, toes])
+
+
+def _between_keys(keys: Sequence[OnBall], value: str, time_s: FloatArray) -> FloatArray:
+    """Return a value (radians) that rests at its keys' extremes and is held outside them."""
+    from scipy.interpolate import PchipInterpolator
+
+    at = np.array([key.at for key in keys])
+    curve = PchipInterpolator(at, np.radians([getattr(key, value) for key in keys]))
+    return np.asarray(curve(np.clip(time_s, at[0], at[-1])), dtype=np.float64)
 
 
 def _via_row(via: Via, before: Plant, after: Plant, shape: FootShape, out: float) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from actions_library.authoring.feet import Plant, Via
+from actions_library.authoring.feet import OnBall, Plant, Via, other_foot
 from actions_library.authoring.keys import Arm, Key, Place, Turn, at, carried, mirrored
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
@@ -25,30 +25,30 @@ def idle(skeleton: Skeleton) -> Clip:
         STAND,
         Key(
             0.25,
-            place=Place(left=0.020, up=-0.015, ahead=0.004),
-            hips=Turn(yaw=-2.5, lean=2.0, tilt=2.2),
-            chest=Turn(yaw=2.0, lean=-1.2, tilt=-1.5),
-            head=Turn(yaw=4.0, lean=2.0, tilt=-1.0),
-            left_arm=Arm(to=(0.21, -1.0, 0.07), bend=18.0, shrug=2.5),
-            right_arm=Arm(to=(0.22, -1.0, 0.10), bend=23.0, shrug=2.5),
+            place=Place(left=0.024, up=-0.009, ahead=0.004),
+            hips=Turn(yaw=-3.0, lean=2.0, tilt=2.4),
+            chest=Turn(yaw=2.0, lean=-1.4, tilt=-1.8),
+            head=Turn(yaw=5.0, lean=1.5, tilt=-1.2),
+            left_arm=Arm(to=(0.18, -1.0, 0.06), bend=16.0, shrug=2.5),
+            right_arm=Arm(to=(0.18, -1.0, 0.09), bend=23.0, shrug=2.5),
         ),
         Key(
             0.5,
-            place=Place(left=-0.010, up=-0.014, ahead=-0.002),
+            place=Place(left=-0.008, up=-0.010, ahead=-0.003),
             hips=Turn(yaw=-0.5, lean=2.5, tilt=-0.8),
-            chest=Turn(yaw=0.5, lean=1.2, tilt=0.8),
-            head=Turn(yaw=1.0, lean=3.5, tilt=0.5),
-            left_arm=Arm(to=(0.19, -1.0, 0.08), bend=19.0),
-            right_arm=Arm(to=(0.20, -1.0, 0.08), bend=20.0),
+            chest=Turn(yaw=0.5, lean=1.4, tilt=0.8),
+            head=Turn(yaw=1.0, lean=4.0, tilt=0.5),
+            left_arm=Arm(to=(0.16, -1.0, 0.07), bend=18.0),
+            right_arm=Arm(to=(0.15, -1.0, 0.06), bend=18.0),
         ),
         Key(
             0.75,
-            place=Place(left=-0.016, up=-0.016, ahead=0.003),
-            hips=Turn(yaw=0.0, lean=2.0, tilt=-1.4),
-            chest=Turn(yaw=-0.5, lean=-1.0, tilt=1.2),
-            head=Turn(yaw=-3.0, lean=2.0, tilt=0.8),
-            left_arm=Arm(to=(0.21, -1.0, 0.07), bend=19.0, shrug=2.5),
-            right_arm=Arm(to=(0.22, -1.0, 0.09), bend=21.0, shrug=2.5),
+            place=Place(left=-0.018, up=-0.010, ahead=0.003),
+            hips=Turn(yaw=0.5, lean=2.0, tilt=-1.8),
+            chest=Turn(yaw=-1.0, lean=-1.2, tilt=1.4),
+            head=Turn(yaw=-5.0, lean=1.5, tilt=1.0),
+            left_arm=Arm(to=(0.18, -1.0, 0.06), bend=18.0, shrug=2.5),
+            right_arm=Arm(to=(0.18, -1.0, 0.07), bend=20.0, shrug=2.5),
         ),
     ]
     return make_clip(
@@ -83,7 +83,7 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
         stand,
         Key(  # eyes first, weight onto the right leg
             0.28,
-            place=Place(left=-0.045, up=-0.022, ahead=-0.005),
+            place=Place(left=-0.105, up=-0.024, ahead=-0.016),
             hips=Turn(yaw=-3.0, lean=3.0, tilt=-3.0),
             chest=Turn(yaw=8.0, lean=2.0, tilt=1.0),
             head=Turn(yaw=38.0, lean=6.0, tilt=-2.0),
@@ -92,7 +92,7 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
         ),
         Key(
             0.55,
-            place=Place(left=-0.020, up=-0.040, ahead=0.0),
+            place=Place(left=-0.075, up=-0.036, ahead=-0.030),
             hips=Turn(yaw=38.0, lean=4.0, tilt=-2.0),
             chest=Turn(yaw=52.0, lean=4.0, tilt=-1.0),
             head=Turn(yaw=78.0, lean=6.0, tilt=-1.0),
@@ -101,14 +101,14 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
         ),
         Key(  # weight onto the left leg, which stands the new way
             0.80,
-            place=Place(left=0.010, up=-0.034, ahead=-0.055),
+            place=Place(left=0.000, up=-0.032, ahead=-0.108),
             hips=Turn(yaw=66.0, lean=4.0, tilt=3.0),
             chest=Turn(yaw=78.0, lean=4.0, tilt=0.0),
             head=Turn(yaw=90.0, lean=4.0, tilt=0.0),
         ),
         Key(
             1.06,
-            place=Place(left=0.005, up=-0.020, ahead=-0.040),
+            place=Place(left=0.008, up=-0.022, ahead=-0.098),
             hips=Turn(yaw=90.0, lean=3.0, tilt=2.5),
             chest=Turn(yaw=93.0, lean=2.0, tilt=-1.0),
             head=Turn(yaw=91.0, lean=3.0, tilt=0.0),
@@ -118,7 +118,9 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
         at(duration, carried(stand, yaw=90.0)),
     ]
     inner, outer = (
-        (LEFT_STANCE, RIGHT_STANCE) if to > 0 else (_swap(RIGHT_STANCE), _swap(LEFT_STANCE))
+        (LEFT_STANCE, RIGHT_STANCE)
+        if to > 0
+        else (other_foot(RIGHT_STANCE), other_foot(LEFT_STANCE))
     )
     inside = [
         replace(inner, leave=0.34, leave_pitch=22.0, roll=0.12),
@@ -131,7 +133,13 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
         ),
     ]
     outside = [
-        replace(outer, leave=0.80, leave_pitch=34.0, roll=0.18),
+        replace(
+            outer,
+            leave=0.80,
+            leave_pitch=34.0,
+            roll=0.20,
+            on_ball=(OnBall(0.60, 0.0), OnBall(0.80, 2.0, turn=24.0)),
+        ),
         replace(
             _around(outer),
             land=1.14,
@@ -142,7 +150,10 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
     ]
     if to < 0:
         keys = [mirrored(key) for key in keys]
-        inside, outside = [_swap(plant) for plant in inside], [_swap(plant) for plant in outside]
+        inside, outside = (
+            [other_foot(plant) for plant in inside],
+            [other_foot(plant) for plant in outside],
+        )
     left, right = (inside, outside) if to > 0 else (outside, inside)
     return make_clip(
         skeleton,
@@ -155,10 +166,6 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
     )
 
 
-def _swap(plant: Plant) -> Plant:
-    return replace(plant, left=-plant.left, yaw=-plant.yaw)
-
-
 def _around(plant: Plant) -> Plant:
     """Return the stance after a quarter turn to the left."""
     return replace(plant, left=plant.ahead, ahead=-plant.left, yaw=plant.yaw + 90.0)
@@ -166,107 +173,95 @@ def _around(plant: Plant) -> Plant:
 
 def punch(skeleton: Skeleton) -> Clip:
     """Return a right-hand straight: from the rear foot through hips and shoulder to the fist."""
-    duration = 1.60
-    guard_left = Arm(
-        to=(-0.10, -0.06, 1.0), bend=118.0, elbow=(0.35, -1.0, 0.0), twist=30.0, flex=0.0, curl=98.0
-    )
-    guard_right = Arm(
-        to=(-0.22, -0.02, 0.8), bend=132.0, elbow=(0.5, -1.0, -0.1), twist=30.0, flex=0.0, curl=98.0
+    duration = 1.50
+    fist = Arm(bend=120.0, elbow=(0.4, -1.0, -0.1), twist=25.0, flex=0.0, curl=150.0)
+    straight = replace(
+        fist, to=(-0.02, 0.05, 1.0), bend=7.0, elbow=(1.0, -0.6, 0.0), follow=0.0, twist=80.0
     )
     keys = [
         STAND,
         Key(  # guard
-            0.34,
-            place=Place(left=0.02, up=-0.060, ahead=0.06),
-            hips=Turn(yaw=-28.0, lean=6.0, tilt=0.0),
-            chest=Turn(yaw=-24.0, lean=10.0, tilt=0.0),
-            head=Turn(yaw=-4.0, lean=10.0),
-            left_arm=guard_left,
-            right_arm=guard_right,
+            0.30,
+            place=Place(left=0.015, up=-0.060, ahead=0.05),
+            hips=Turn(yaw=-26.0, lean=6.0),
+            chest=Turn(yaw=-24.0, lean=10.0),
+            head=Turn(yaw=-4.0, lean=9.0),
+            left_arm=replace(fist, to=(-0.05, 0.0, 1.0), bend=108.0),
+            right_arm=replace(fist, to=(-0.25, -0.02, 0.8), bend=130.0),
         ),
-        Key(  # anticipation: the weight goes back
-            0.56,
-            place=Place(left=-0.005, up=-0.075, ahead=0.015),
-            hips=Turn(yaw=-42.0, lean=4.0, tilt=2.0),
-            chest=Turn(yaw=-48.0, lean=6.0, tilt=4.0),
-            head=Turn(yaw=-6.0, lean=8.0, tilt=2.0),
-            left_arm=replace(guard_left, to=(-0.25, 0.0, 1.0), bend=95.0),
-            right_arm=replace(
-                guard_right, to=(0.05, -0.20, 0.6), bend=138.0, elbow=(0.6, -0.8, -0.8)
-            ),
+        Key(  # anticipation: the weight goes back, and the fist
+            0.54,
+            place=Place(left=-0.020, up=-0.070, ahead=-0.010),
+            hips=Turn(yaw=-44.0, lean=2.0, tilt=2.0),
+            chest=Turn(yaw=-58.0, lean=3.0, tilt=5.0),
+            head=Turn(yaw=-8.0, lean=7.0, tilt=3.0),
+            left_arm=replace(fist, to=(0.10, 0.0, 1.0), bend=58.0, follow=0.0, twist=40.0),
+            right_arm=replace(fist, to=(0.25, -0.50, 0.45), bend=132.0, elbow=(0.5, -0.2, -1.0)),
         ),
         Key(  # the fist arrives
-            0.72,
-            place=Place(left=0.055, up=-0.085, ahead=0.165),
-            hips=Turn(yaw=18.0, lean=8.0, tilt=0.0),
-            chest=Turn(yaw=46.0, lean=12.0, tilt=-3.0),
-            head=Turn(yaw=6.0, lean=10.0, tilt=-3.0),
-            left_arm=replace(
-                guard_left, to=(0.05, -0.05, 0.8), bend=132.0, elbow=(0.5, -1.0, -0.5)
-            ),
-            right_arm=Arm(
-                to=(-0.02, 0.06, 1.0),
-                bend=7.0,
-                elbow=(1.0, -0.5, 0.0),
-                follow=0.0,
-                twist=80.0,
-                flex=0.0,
-                curl=98.0,
-            ),
+            0.69,
+            place=Place(left=0.050, up=-0.095, ahead=0.215),
+            hips=Turn(yaw=22.0, lean=10.0),
+            chest=Turn(yaw=52.0, lean=14.0, tilt=-4.0),
+            head=Turn(yaw=6.0, lean=10.0, tilt=-4.0),
+            left_arm=replace(fist, to=(0.05, -0.05, 0.8), bend=132.0, elbow=(0.5, -1.0, -0.5)),
+            right_arm=straight,
         ),
         Key(  # and goes on a little
             0.82,
-            place=Place(left=0.060, up=-0.088, ahead=0.175),
-            hips=Turn(yaw=21.0, lean=8.0, tilt=0.0),
-            chest=Turn(yaw=50.0, lean=12.5, tilt=-3.0),
-            head=Turn(yaw=7.0, lean=10.0, tilt=-3.0),
-            left_arm=replace(
-                guard_left, to=(0.08, -0.05, 0.8), bend=133.0, elbow=(0.5, -1.0, -0.5)
-            ),
-            right_arm=Arm(
-                to=(0.02, 0.04, 1.0),
-                bend=10.0,
-                elbow=(1.0, -0.5, 0.0),
-                follow=0.0,
-                twist=80.0,
-                flex=0.0,
-                curl=98.0,
-            ),
+            place=Place(left=0.056, up=-0.100, ahead=0.235),
+            hips=Turn(yaw=26.0, lean=11.0),
+            chest=Turn(yaw=58.0, lean=15.0, tilt=-4.0),
+            head=Turn(yaw=8.0, lean=10.0, tilt=-4.0),
+            left_arm=replace(fist, to=(0.08, -0.05, 0.8), bend=134.0, elbow=(0.5, -1.0, -0.6)),
+            right_arm=replace(straight, to=(0.03, 0.03, 1.0), bend=10.0),
         ),
         Key(
-            1.08,
-            place=Place(left=0.025, up=-0.060, ahead=0.07),
-            hips=Turn(yaw=-16.0, lean=6.0),
-            chest=Turn(yaw=-10.0, lean=8.0),
+            1.06,
+            place=Place(left=0.020, up=-0.060, ahead=0.08),
+            hips=Turn(yaw=-14.0, lean=6.0),
+            chest=Turn(yaw=-8.0, lean=8.0),
             head=Turn(yaw=-2.0, lean=8.0),
-            left_arm=replace(guard_left, to=(-0.05, -0.35, 1.0), bend=100.0, curl=75.0),
-            right_arm=replace(guard_right, to=(-0.15, -0.35, 0.9), bend=112.0, curl=75.0),
+            left_arm=replace(fist, to=(-0.05, -0.35, 1.0), bend=98.0, curl=100.0),
+            right_arm=replace(fist, to=(-0.10, -0.35, 0.9), bend=110.0, curl=100.0),
         ),
         at(duration, STAND),
     ]
-    front = replace(LEFT_STANCE, land=0.30, leave=1.14, left=0.115, ahead=0.20, yaw=4.0, flat=0.06)
+    front = replace(LEFT_STANCE, left=0.125, ahead=0.32, yaw=2.0)
     left = [
-        replace(LEFT_STANCE, leave=0.08, leave_pitch=18.0, roll=0.08),
-        replace(front, land_pitch=-8.0, leave_pitch=12.0, roll=0.10, swing=(Via(0.5, 0.045),)),
-        replace(LEFT_STANCE, land=1.38, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.04),)),
-    ]
-    pushing = replace(RIGHT_STANCE, yaw=-30.0, left=-0.11, ahead=-0.06)
-    right = [
-        replace(RIGHT_STANCE, leave=0.20, leave_pitch=14.0, roll=0.08),
+        replace(LEFT_STANCE, leave=0.06, leave_pitch=18.0, roll=0.06),
         replace(
-            pushing,
-            land=0.40,
-            leave=0.74,
+            front,
+            land=0.30,
+            leave=1.02,
+            land_pitch=-8.0,
+            flat=0.06,
+            leave_pitch=12.0,
+            roll=0.10,
+            swing=(Via(0.5, 0.055),),
+        ),
+        replace(LEFT_STANCE, land=1.28, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.05),)),
+    ]
+    rear = replace(RIGHT_STANCE, left=-0.125, ahead=-0.11, yaw=-32.0)
+    right = [
+        replace(RIGHT_STANCE, leave=0.17, leave_pitch=14.0, roll=0.08),
+        replace(
+            rear,
+            land=0.38,
+            leave=1.14,
             land_pitch=10.0,
             flat=0.06,
-            leave_pitch=42.0,
-            roll=0.17,
-            swing=(Via(0.5, 0.035),),
+            leave_pitch=14.0,
+            roll=0.09,
+            on_ball=(
+                OnBall(0.52, 0.0),
+                OnBall(0.70, 44.0, turn=24.0),
+                OnBall(0.82, 48.0, turn=26.0),
+                OnBall(1.04, 0.0),
+            ),
+            swing=(Via(0.5, 0.040),),
         ),
-        replace(
-            pushing, land=0.74, leave=1.20, land_pitch=42.0, flat=0.30, leave_pitch=14.0, roll=0.09
-        ),
-        replace(RIGHT_STANCE, land=1.44, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.035),)),
+        replace(RIGHT_STANCE, land=1.36, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.040),)),
     ]
     return make_clip(
         skeleton,
@@ -275,27 +270,28 @@ def punch(skeleton: Skeleton) -> Clip:
         standing_still(duration),
         left_foot=left,
         right_foot=right,
-        stage_ends_s=(0.34, 0.56, 0.72, 0.82, duration),
+        stage_ends_s=(0.30, 0.54, 0.69, 0.82, duration),
     )
 
 
 def throw(skeleton: Skeleton) -> Clip:
     """Return an overhand throw: wind up over the rear leg, step, whip, and let the arm run out."""
-    duration = 2.10
+    duration = 2.25
     keys = [
         STAND,
+        Key(0.13, place=Place(left=0.035, up=-0.014)),
         Key(
-            0.26,
+            0.28,
             place=Place(left=-0.02, up=-0.030, ahead=-0.01),
             hips=Turn(yaw=-20.0, lean=3.0, tilt=0.0),
             chest=Turn(yaw=-18.0, lean=4.0),
             head=Turn(yaw=-2.0, lean=6.0),
             left_arm=Arm(to=(0.0, -0.9, 0.7), bend=60.0),
-            right_arm=Arm(to=(0.02, -0.9, 0.55), bend=75.0, curl=62.0),
+            right_arm=Arm(to=(0.02, -0.9, 0.55), bend=75.0, curl=80.0),
         ),
         Key(  # wound up: the side to the target, the weight on the rear leg
             0.66,
-            place=Place(left=-0.06, up=-0.055, ahead=-0.06),
+            place=Place(left=-0.095, up=-0.055, ahead=-0.075),
             hips=Turn(yaw=-62.0, lean=0.0, tilt=4.0),
             chest=Turn(yaw=-82.0, lean=-8.0, tilt=8.0),
             head=Turn(yaw=-12.0, lean=4.0, tilt=4.0),
@@ -308,7 +304,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 curl=20.0,
             ),
             right_arm=Arm(
-                to=(1.0, -0.35, -0.35), bend=42.0, elbow=(0.2, -0.4, -1.0), twist=20.0, curl=62.0
+                to=(1.0, -0.35, -0.35), bend=42.0, elbow=(0.2, -0.4, -1.0), twist=20.0, curl=80.0
             ),
         ),
         Key(  # the front foot lands, the hips open, the hand stays behind
@@ -331,7 +327,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 elbow=(1.0, -0.35, 0.1),
                 twist=0.0,
                 flex=-30.0,
-                curl=62.0,
+                curl=80.0,
             ),
         ),
         Key(  # release: high, ahead of the head
@@ -367,13 +363,20 @@ def throw(skeleton: Skeleton) -> Clip:
             ),
         ),
         Key(
-            1.60,
-            place=Place(left=0.020, up=-0.040, ahead=0.10),
-            hips=Turn(yaw=8.0, lean=8.0),
-            chest=Turn(yaw=10.0, lean=10.0),
-            head=Turn(yaw=0.0, lean=7.0),
-            left_arm=Arm(to=(0.28, -1.0, 0.10), bend=34.0),
-            right_arm=Arm(to=(0.02, -1.0, 0.35), bend=28.0),
+            1.48,
+            place=Place(left=0.010, up=-0.080, ahead=0.15),
+            hips=Turn(yaw=18.0, lean=12.0),
+            chest=Turn(yaw=26.0, lean=18.0),
+            head=Turn(yaw=3.0, lean=9.0),
+        ),
+        Key(  # the weight is back on the rear leg
+            1.72,
+            place=Place(left=-0.088, up=-0.050, ahead=-0.005),
+            hips=Turn(yaw=4.0, lean=4.0, tilt=-2.0),
+            chest=Turn(yaw=4.0, lean=5.0, tilt=1.0),
+            head=Turn(yaw=0.0, lean=5.0),
+            left_arm=Arm(to=(0.26, -1.0, 0.10), bend=32.0),
+            right_arm=Arm(to=(0.06, -1.0, 0.28), bend=26.0),
         ),
         at(duration, STAND),
     ]
@@ -382,9 +385,9 @@ def throw(skeleton: Skeleton) -> Clip:
         replace(
             LEFT_STANCE,
             land=0.88,
-            leave=1.50,
+            leave=1.62,
             left=0.095,
-            ahead=0.36,
+            ahead=0.34,
             yaw=2.0,
             land_pitch=-12.0,
             flat=0.07,
@@ -392,7 +395,7 @@ def throw(skeleton: Skeleton) -> Clip:
             roll=0.12,
             swing=(Via(0.45, 0.17, along=0.40, pitch=14.0),),
         ),
-        replace(LEFT_STANCE, land=1.86, land_pitch=8.0, flat=0.08, swing=(Via(0.5, 0.05),)),
+        replace(LEFT_STANCE, land=1.98, land_pitch=8.0, flat=0.08, swing=(Via(0.5, 0.06),)),
     ]
     turned = replace(RIGHT_STANCE, yaw=-58.0, left=-0.10, ahead=-0.06)
     right = [
@@ -405,11 +408,12 @@ def throw(skeleton: Skeleton) -> Clip:
             flat=0.06,
             leave_pitch=58.0,
             roll=0.26,
+            on_ball=(OnBall(0.84, 0.0), OnBall(1.10, 4.0, turn=44.0)),
             swing=(Via(0.5, 0.03),),
         ),
         replace(
             RIGHT_STANCE,
-            land=1.44,
+            land=1.40,
             land_pitch=18.0,
             flat=0.10,
             swing=(Via(0.30, 0.16, along=0.25, pitch=52.0, toes=30.0), Via(0.65, 0.10, pitch=24.0)),
@@ -422,7 +426,7 @@ def throw(skeleton: Skeleton) -> Clip:
         standing_still(duration),
         left_foot=left,
         right_foot=right,
-        stage_ends_s=(0.26, 0.66, 1.03, 1.24, duration),
+        stage_ends_s=(0.28, 0.66, 1.03, 1.24, duration),
     )
 
 
@@ -444,7 +448,7 @@ def bow(skeleton: Skeleton) -> Clip:
         ),
         Key(
             1.10,
-            place=Place(left=0.0, up=-0.050, ahead=-0.105),
+            place=Place(left=0.0, up=-0.040, ahead=-0.100),
             hips=Turn(lean=44.0),
             chest=Turn(lean=52.0),
             head=Turn(lean=58.0),
@@ -453,7 +457,7 @@ def bow(skeleton: Skeleton) -> Clip:
         ),
         Key(
             1.48,
-            place=Place(left=0.0, up=-0.051, ahead=-0.108),
+            place=Place(left=0.0, up=-0.041, ahead=-0.103),
             hips=Turn(lean=45.5),
             chest=Turn(lean=54.0),
             head=Turn(lean=61.0),

@@ -53,9 +53,9 @@ class Arm:
     curl : closes the fingers (°).
     """
 
-    to: Vector = (0.20, -1.0, 0.02)
+    to: Vector = (0.16, -1.0, 0.05)
     bend: float = 20.0
-    elbow: Vector = (0.55, 0.0, -1.0)
+    elbow: Vector = (0.35, 0.0, -1.0)
     follow: float = 1.0
     shrug: float = 0.0
     twist: float = 10.0

@@ -29,7 +29,7 @@ RATE_HZ = 60.0
 LEG_SOFTNESS = 0.004
 """Last part of a leg's reach that softens; short, since a foot that falls short slides."""
 
-HEEL_BEHIND_ANKLE_M = 0.050
+HEEL_BEHIND_ANKLE_M = 0.055
 
 _SPINE_SHARE = {"spine": 0.30, "chest": 0.65, "upper_chest": 1.0}
 _NECK_SHARE = 0.45
@@ -206,7 +206,9 @@ def _pose_arm(pose: Pose, side: str, out: float, numbers: FloatArray) -> None:
     )
     pose.turn(hand, wrist)
     pose.turn(f"{side}_fingers", quaternion_about(fold, np.radians(arm["curl"])))
-    pose.turn(f"{side}_thumb", quaternion_about([-1.0, -out, 0.0], np.radians(0.3 * arm["curl"])))
+    over_palm = quaternion_about([1.0, -out, 0.0], np.radians(0.35 * arm["curl"]))
+    across = quaternion_about([1.0, out, 0.0], np.radians(0.40 * arm["curl"]))
+    pose.turn(f"{side}_thumb", multiply(across, over_palm))
 
 
 def _shoulder(to: FloatArray, arm: Numbers, out: float) -> FloatArray:

@@ -16,12 +16,12 @@ RIGHT_STANCE = Plant(-9.0, 9.0, left=-0.100, ahead=-0.020, yaw=-12.0)
 
 STAND = Key(
     0.0,
-    place=Place(left=0.012, up=-0.013, ahead=0.0),
+    place=Place(left=0.012, up=-0.008, ahead=0.0),
     hips=Turn(yaw=-2.0, lean=2.0, tilt=1.5),
     chest=Turn(yaw=1.5, lean=0.5, tilt=-1.0),
     head=Turn(yaw=0.0, lean=3.0, tilt=0.0),
-    left_arm=Arm(to=(0.19, -1.0, 0.06), bend=17.0),
-    right_arm=Arm(to=(0.20, -1.0, 0.09), bend=22.0),
+    left_arm=Arm(to=(0.15, -1.0, 0.05), bend=15.0),
+    right_arm=Arm(to=(0.17, -1.0, 0.08), bend=21.0),
 )
 """Weight a little on the left leg, arms hanging, eyes ahead."""
 
