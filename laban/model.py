@@ -10,7 +10,6 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -126,6 +125,8 @@ def load_effort_model(path: Path | str | None = None) -> EffortModel:
         If the file is missing or is not such a model; the message names file and key.
     """
     if path is None:
+        from importlib.resources import files
+
         shipped = files("laban") / "models" / "default.json"
         return effort_model_from_json(shipped.read_text(encoding="utf-8"), source="default.json")
     try:
