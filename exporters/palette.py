@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import colorsys
-from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from smd.character.character import Character
 from smd.geometry.arrays import FloatArray
 from smd.score import Score
 
@@ -15,6 +15,8 @@ RGB = tuple[float, float, float]
 
 IDLE_RGB: RGB = (0.62, 0.64, 0.67)
 """sRGB of movement that is no phrase's."""
+
+_GOLDEN = 0.618034
 
 # Medium tones of one lightness, told apart on white paper and beside each other.
 _PHRASES = [
@@ -29,16 +31,19 @@ def action_colors(score: Score) -> dict[str, RGB]:
     return {name: _rgb(_PHRASES[i % len(_PHRASES)]) for i, name in enumerate(actions)}
 
 
-def performer_colors(own: Iterable[RGB], index: int) -> list[RGB]:
-    """Return a character's colours for its ``index``-th performer; the first keeps its own.
+def performer_colors(character: Character, index: int) -> list[RGB]:
+    """Return the colour of each mesh for a character's ``index``-th performer; the first keeps all.
 
-    The hue goes round by the golden ratio, so that any number of performers are told apart.
+    Performers are told apart by their largest garment, which is the largest mesh after the first
+    one (the body), or the only one. Its hue goes round by the golden ratio, so that any number of
+    them differ.
     """
-    turned = []
-    for rgb in own:
-        hue, saturation, value = colorsys.rgb_to_hsv(*rgb)
-        turned.append(colorsys.hsv_to_rgb((hue + 0.618034 * index) % 1.0, saturation, value))
-    return turned
+    colors = [mesh.color_rgb for mesh in character.meshes]
+    sizes = [len(mesh.triangles) for mesh in character.meshes]
+    garment = 1 + sizes[1:].index(max(sizes[1:])) if len(sizes) > 1 else 0
+    hue, saturation, value = colorsys.rgb_to_hsv(*colors[garment])
+    colors[garment] = colorsys.hsv_to_rgb((hue + _GOLDEN * index) % 1.0, saturation, value)
+    return colors
 
 
 def linear_from_srgb(rgb: ArrayLike) -> FloatArray:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pyvista as pv
-from numpy.typing import NDArray
+from PIL import Image
 
+from actions_library.usd_skel import vertex_normals
 from exporters.palette import RGB
 from exporters.viewpoint import Viewpoint
 from smd.geometry.arrays import FloatArray, IntArray
@@ -17,14 +18,16 @@ SUPERSAMPLING = 2
 """Pictures are drawn that much larger and averaged down; the renderer's own smoothing differs
 between machines."""
 
-GRID_M = 0.5
-_GROUND_RGB, _MINOR_RGB, _MAJOR_RGB = (0.965, 0.968, 0.972), (0.87, 0.88, 0.90), (0.74, 0.76, 0.80)
+_GROUND_RGB = (0.972, 0.975, 0.98)
+_MINOR_RGB, _MAJOR_RGB = (0.86, 0.87, 0.895), (0.72, 0.745, 0.785)
 _SHADOW_RGB = (0.84, 0.85, 0.87)
-_LIGHT_FROM = np.array([0.35, 1.0, 0.45])
-"""Where the light that casts the shadows comes from."""
-
 # Heights above the ground, so that what lies on it does not flicker.
 _SHADOW_M, _GRID_M, _PATH_M = 0.001, 0.002, 0.008
+
+_FLAT_FROM_WORLD = np.array(
+    [[1.0, -0.35, 0.0, 0.0], [0.0, 0.0, 0.0, _SHADOW_M], [0.0, -0.45, 1.0, 0.0], [0, 0, 0, 1]]
+)
+"""Where a light from (0.35, 1, 0.45) throws a point onto the ground."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,26 +59,27 @@ class Stage:
             window_size=[SUPERSAMPLING * width, SUPERSAMPLING * height],
             lighting="none",
         )
-        self._plotter.set_background("white")
+        self._plotter.set_background(_GROUND_RGB)
+        self._plotter.disable_anti_aliasing()
         self._bodies = [self._add_body(triangles, rgb) for triangles, rgb in bodies]
         self._traces: list[pv.Actor] = []
         self._ground: list[pv.Actor] = []
-        self._lights: list[pv.Light] = []
 
     def close(self) -> None:
         """Free the renderer."""
         self._plotter.close()
 
-    def look_from(self, viewpoint: Viewpoint, reach_m: float) -> None:
-        """Set the camera, and with it the lights and the ground up to ``reach_m`` around."""
+    def look_from(self, viewpoint: Viewpoint, grid_m: float) -> None:
+        """Set the camera, and with it the lights and the ground's grid."""
         camera = self._plotter.camera
         camera.position, camera.focal_point = viewpoint.eye_m, viewpoint.target_m
         camera.up = (0.0, 1.0, 0.0)
         camera.view_angle = float(np.degrees(viewpoint.view_angle_rad))
+        reach_m = 3.0 + 1.5 * viewpoint.width_m
         distance = float(np.linalg.norm(viewpoint.eye_m - viewpoint.target_m))
-        camera.clipping_range = (0.02 * distance, distance + 4.0 * reach_m)
+        camera.clipping_range = (0.02 * distance, distance + 2.0 * reach_m)
         self._light_from(viewpoint)
-        self._lay_ground(viewpoint.target_m, reach_m)
+        self._lay_grid(viewpoint.target_m, reach_m, grid_m)
 
     def draw_traces(self, traces: Sequence[Trace]) -> None:
         """Replace the lines."""
@@ -92,30 +96,27 @@ class Stage:
             for trace in traces
         ]
 
-    def picture(self, points_m: Mapping[int, FloatArray]) -> NDArray[np.uint8]:
-        """Return the picture ``(height, width, 3)`` with the bodies of these indices in it."""
-        for index, (body, shadow, actors) in enumerate(self._bodies):
+    def picture(self, points_m: Mapping[int, FloatArray]) -> Image.Image:
+        """Return the picture with the bodies of these indices in it, each where it is given."""
+        for index, (body, actors) in enumerate(self._bodies):
             for actor in actors:
                 actor.SetVisibility(index in points_m)
             if index in points_m:
-                body.points = points_m[index]
-                body["Normals"] = _normals(body)
-                shadow.points = _shadow(points_m[index])
+                points = points_m[index]
+                body.points = points.astype(np.float32)
+                normals = vertex_normals(points, body.regular_faces)
+                body["Normals"] = normals.astype(np.float32)
         self._plotter.render()
-        image = self._plotter.screenshot(return_img=True)[..., :3]
-        k = SUPERSAMPLING
-        height, width = image.shape[0] // k, image.shape[1] // k
-        blocks = image[: k * height, : k * width].reshape(height, k, width, k, 3)
-        return np.round(blocks.mean(axis=(1, 3))).astype(np.uint8)
+        image = Image.fromarray(self._plotter.screenshot(return_img=True)[..., :3])
+        return image.reduce(SUPERSAMPLING)
 
     def _add_body(
         self, triangles: IntArray, rgb: FloatArray
-    ) -> tuple[pv.PolyData, pv.PolyData, tuple[pv.Actor, pv.Actor]]:
-        body = pv.PolyData.from_regular_faces(np.zeros((len(rgb), 3)), triangles)
+    ) -> tuple[pv.PolyData, tuple[pv.Actor, pv.Actor]]:
+        body = pv.PolyData.from_regular_faces(np.zeros((len(rgb), 3), np.float32), triangles)
         body["rgb"] = np.round(255 * rgb).astype(np.uint8)
-        body["Normals"] = np.tile([0.0, 1.0, 0.0], (len(rgb), 1))
+        body["Normals"] = np.tile(np.array([0.0, 1.0, 0.0], np.float32), (len(rgb), 1))
         body.GetPointData().SetActiveNormals("Normals")
-        shadow = pv.PolyData.from_regular_faces(np.zeros((len(rgb), 3)), triangles)
         seen = self._plotter.add_mesh(
             body,
             scalars="rgb",
@@ -128,8 +129,13 @@ class Stage:
             render=False,
             copy_mesh=False,
         )
-        cast = self._plotter.add_mesh(shadow, color=_SHADOW_RGB, lighting=False, render=False)
-        return body, shadow, (seen, cast)
+        # The shadow is the same mesh, pressed flat by its actor: its points travel to the
+        # renderer once.
+        shadow = self._plotter.add_mesh(
+            body, color=_SHADOW_RGB, lighting=False, render=False, copy_mesh=False
+        )
+        shadow.user_matrix = _FLAT_FROM_WORLD
+        return body, (seen, shadow)
 
     def _light_from(self, viewpoint: Viewpoint) -> None:
         """Place three lights about the camera: a warm key, a cool fill, a rim from behind."""
@@ -151,27 +157,21 @@ class Stage:
                 )
             )
 
-    def _lay_ground(self, centre_m: FloatArray, reach_m: float) -> None:
-        """Replace the ground by one around a point, with a line each half metre."""
+    def _lay_grid(self, centre_m: FloatArray, reach_m: float, grid_m: float) -> None:
+        """Replace the grid by one around a point that fades into the ground at ``reach_m``."""
         for actor in self._ground:
             self._plotter.remove_actor(actor, render=False)
-        steps = int(np.ceil(reach_m / (2 * GRID_M)))
-        middle = np.round(centre_m[[0, 2]]).astype(float)
-        ticks = GRID_M * np.arange(-2 * steps, 2 * steps + 1)
-        whole = np.arange(len(ticks)) % 2 == 0
-        plane = pv.Plane(
-            center=(middle[0], 0.0, middle[1]),
-            direction=(0, 1, 0),
-            i_size=2 * ticks[-1],
-            j_size=2 * ticks[-1],
-        )
-        add = self._plotter.add_mesh
-        self._ground = [add(plane, color=_GROUND_RGB, lighting=False, render=False)]
-        for which, rgb, width in ((~whole, _MINOR_RGB, 1.0), (whole, _MAJOR_RGB, 1.4)):
-            lines = _grid(middle, ticks[which], float(ticks[-1]))
+        self._ground = []
+        for every, rgb, width in ((1, _MINOR_RGB, 1.0), (2, _MAJOR_RGB, 1.4)):
+            grid = _fading_grid(centre_m, reach_m, every * grid_m, rgb)
             self._ground.append(
-                add(
-                    lines, color=rgb, line_width=SUPERSAMPLING * width, lighting=False, render=False
+                self._plotter.add_mesh(
+                    grid,
+                    scalars="rgb",
+                    rgb=True,
+                    line_width=SUPERSAMPLING * width,
+                    lighting=False,
+                    render=False,
                 )
             )
 
@@ -183,23 +183,18 @@ def on_ground(points_m: FloatArray) -> FloatArray:
     return flat
 
 
-def _grid(middle: FloatArray, ticks: FloatArray, end: float) -> pv.PolyData:
-    """Return lines along X and Z at the ticks around a point."""
-    edge = np.full_like(ticks, end)
-    along_z = np.stack([np.column_stack([ticks, -edge]), np.column_stack([ticks, edge])], axis=1)
-    flat = np.concatenate([along_z, along_z[..., ::-1]]).reshape(-1, 2) + middle
-    points = np.column_stack([flat[:, 0], np.full(len(flat), _GRID_M), flat[:, 1]])
-    return pv.line_segments_from_points(points)
-
-
-def _shadow(points_m: FloatArray) -> FloatArray:
-    """Return where the light throws points onto the ground."""
-    flat = points_m - points_m[:, 1:2] / _LIGHT_FROM[1] * _LIGHT_FROM
-    flat[:, 1] = _SHADOW_M
-    return flat
-
-
-def _normals(body: pv.PolyData) -> FloatArray:
-    from actions_library.usd_skel import vertex_normals
-
-    return vertex_normals(np.asarray(body.points, float), body.regular_faces)
+def _fading_grid(centre_m: FloatArray, reach_m: float, step_m: float, rgb: RGB) -> pv.PolyData:
+    """Return lines along X and Z, each step of the world, in pieces that pale outwards."""
+    ticks = step_m * np.arange(-np.ceil(reach_m / step_m), np.ceil(reach_m / step_m) + 1)
+    x = ticks + step_m * np.round(centre_m[0] / step_m)
+    z = ticks + step_m * np.round(centre_m[2] / step_m)
+    corners = np.stack(np.meshgrid(x, [_GRID_M * step_m], z, indexing="ij"), axis=-1)[:, 0]
+    along_x = np.stack([corners[:-1], corners[1:]], axis=2).reshape(-1, 3)
+    along_z = np.stack([corners[:, :-1], corners[:, 1:]], axis=2).reshape(-1, 3)
+    points = np.concatenate([along_x, along_z])
+    grid = pv.line_segments_from_points(points)
+    away = np.hypot(*(points - centre_m)[:, [0, 2]].T) / reach_m
+    share = np.clip(1.0 - away, 0.0, 1.0)[:, None] ** 0.8
+    colors = share * np.array(rgb) + (1.0 - share) * np.array(_GROUND_RGB)
+    grid["rgb"] = np.round(255 * colors).astype(np.uint8)
+    return grid

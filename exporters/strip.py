@@ -9,27 +9,35 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from exporters.figures import Figure, Scene, read_scene
 from exporters.filmstrip import REFUSED
 from exporters.palette import RGB, action_colors
-from exporters.rendering import GRID_M, Stage, Trace, on_ground
-from exporters.viewpoint import fitted
+from exporters.rendering import Stage, Trace, on_ground
+from exporters.viewpoint import Viewpoint, fitted
 from laban import AXES, Effort
 from smd.errors import ExportError, SmdError
 from smd.files import replacing
 from smd.geometry.arrays import FloatArray
 
 COLUMNS = 8
-CELL_PX = (250, 290)
+CELL_PX = (250, 270)
 LABEL_PX, HEADER_PX, GAP_PX, MARGIN_PX = 215, 44, 4, 8
+WIDE_M = 4.0
+"""From this width of a picture on, the grid has a line each metre, else each half."""
+
 WINDOW_S = 1.5
 """Length of a row where there is no Score."""
 
 _PATH_SAMPLES = 48
-_SIDE_RAD, _RAISED_RAD = np.radians(50.0), np.radians(14.0)
+_RAISED_RAD = np.radians(14.0)
+_BESIDE_RAD = np.radians([50.0, -50.0, 35.0, -35.0, 22.0, -22.0])
+"""How far beside the body's front the camera may stand, the likeliest view first."""
+
+_WORTH = 0.85
+"""A less likely view is taken where its pictures are at most this wide of the best one's."""
+
 _WINDOW_RGB: RGB = (0.12, 0.47, 0.71)
 _INK, _FAINT, _PAPER, _FRAME = (35, 38, 42), (96, 102, 110), (250, 250, 250), (205, 208, 213)
 
@@ -60,11 +68,11 @@ def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
     pen.text((MARGIN_PX, 10), _header(usd_path, scene, rows, len(every)), _INK, _font(20))
     for index, row in enumerate(rows):
         top = HEADER_PX + index * (CELL_PX[1] + GAP_PX)
-        cells, travel_m, width_m = _draw_row(scene, row, stage)
-        _label(pen, top, scene, row, travel_m, width_m)
+        cells, measures = _draw_row(scene, row, stage)
+        _label(pen, top, scene, row, measures)
         for column, (time_s, cell) in enumerate(cells):
             left = LABEL_PX + column * (CELL_PX[0] + GAP_PX)
-            sheet.paste(Image.fromarray(cell), (left, top))
+            sheet.paste(cell, (left, top))
             pen.rectangle((left, top, left + CELL_PX[0], top + CELL_PX[1]), outline=_FRAME)
             pen.text((left + 7, top + 5), f"{time_s:.2f} s", _FAINT, _font(13))
     stage.close()
@@ -95,25 +103,27 @@ def _rows(scene: Scene) -> Iterator[Row]:
 
 def _draw_row(
     scene: Scene, row: Row, stage: Stage
-) -> tuple[list[tuple[float, NDArray[np.uint8]]], float, float]:
-    """Return a row's times and pictures, how far the body goes and how wide a picture is."""
+) -> tuple[list[tuple[float, Image.Image]], list[str]]:
+    """Return a row's times and pictures, and lines that say how large what they show is."""
     figure = scene.figures[row.figure]
     times_s = np.linspace(row.start_s, row.end_s, COLUMNS)
     codes = [scene.time_code(time_s) for time_s in times_s.tolist()]
     bodies = [figure.points_m(code) for code in codes]
     path = _body_path(scene, figure, row)
-    viewpoint = fitted(
-        np.concatenate([*bodies, on_ground(path)]),
-        _towards_camera(figure, codes),
-        aspect=CELL_PX[0] / CELL_PX[1],
-    )
-    stage.look_from(viewpoint, reach_m=6.0 + 4.0 * viewpoint.width_m)
+    viewpoint = _viewpoint(figure, codes, np.concatenate([*bodies, on_ground(path)]))
+    grid_m = 0.5 if viewpoint.width_m < WIDE_M else 1.0
+    stage.look_from(viewpoint, grid_m)
     pictures = []
     for column, (time_s, body) in enumerate(zip(times_s.tolist(), bodies, strict=True)):
         stage.draw_traces(_traces(path, column / (COLUMNS - 1), row.rgb))
         pictures.append((time_s, stage.picture({row.figure: body})))
     travel_m = float(np.linalg.norm(np.diff(path[:, [0, 2]], axis=0), axis=1).sum())
-    return pictures, travel_m, viewpoint.width_m
+    lines = [
+        f"body goes {travel_m:.2f} m",
+        f"cell {viewpoint.width_m:.1f} m wide",
+        f"grid {grid_m:g} m",
+    ]
+    return pictures, lines
 
 
 def _body_path(scene: Scene, figure: Figure, row: Row) -> FloatArray:
@@ -122,12 +132,27 @@ def _body_path(scene: Scene, figure: Figure, row: Row) -> FloatArray:
     return np.array([figure.joints_m(scene.time_code(t)).mean(axis=0) for t in times_s])
 
 
-def _towards_camera(figure: Figure, codes: list[float]) -> FloatArray:
-    """Return the direction from the body to a camera at its front left, a little above it."""
+def _viewpoint(figure: Figure, codes: list[float], points: FloatArray) -> Viewpoint:
+    """Return a camera before the body, a little above it, from which it is seen large.
+
+    In place that is beside its front. Where it travels, a view along its way has less to hold.
+    """
     front = np.sum([figure.front(code) for code in codes], axis=0)
-    heading = np.arctan2(front[0], front[2]) + _SIDE_RAD
-    level = np.cos(_RAISED_RAD)
-    return np.array([level * np.sin(heading), np.sin(_RAISED_RAD), level * np.cos(heading)])
+    heading = np.arctan2(front[0], front[2]) + _BESIDE_RAD
+    level, raised = np.cos(_RAISED_RAD), np.sin(_RAISED_RAD)
+    views = [
+        fitted(
+            points,
+            [level * np.sin(angle), raised, level * np.cos(angle)],
+            aspect=CELL_PX[0] / CELL_PX[1],
+        )
+        for angle in heading
+    ]
+    best = views[0]
+    for view in views[1:]:
+        if view.width_m < _WORTH * best.width_m:
+            best = view
+    return best
 
 
 def _traces(path: FloatArray, done: float, rgb: RGB) -> list[Trace]:
@@ -150,7 +175,6 @@ def _header(path: Path, scene: Scene, rows: list[Row], count: int) -> str:
     return (
         f"{path.name}    {_counted(len(scene.figures), 'character')}, {joints} joints"
         f"    {scene.first_s:.2f} to {scene.last_s:.2f} s    {shown}{_counted(count, kind)}"
-        f"    grid {GRID_M:g} m"
     )
 
 
@@ -158,9 +182,7 @@ def _counted(count: int, thing: str) -> str:
     return f"{count} {thing}{'' if count == 1 else 's'}"
 
 
-def _label(
-    pen: ImageDraw.ImageDraw, top: int, scene: Scene, row: Row, travel_m: float, width_m: float
-) -> None:
+def _label(pen: ImageDraw.ImageDraw, top: int, scene: Scene, row: Row, measures: list[str]) -> None:
     """Write what a row shows to its left."""
     color = tuple(round(255 * c) for c in row.rgb)
     pen.rectangle((MARGIN_PX, top + 8, MARGIN_PX + 5, top + 34), fill=color)
@@ -170,8 +192,7 @@ def _label(
     lines += [
         f"{axis} {value:+.2f}" for axis in AXES if (value := getattr(row.effort, axis)) is not None
     ]
-    lines += [f"body goes {travel_m:.2f} m", f"cell {width_m:.1f} m wide"]
-    for index, line in enumerate(lines):
+    for index, line in enumerate([*lines, *measures]):
         pen.text((MARGIN_PX + 13, top + 40 + 22 * index), line, _FAINT, _font(16))
 
 

@@ -105,8 +105,7 @@ def performance_stage(performance: Performance) -> Usd.Stage:
 def _define_actor(stage: Usd.Stage, path: str, actor: Actor, index: int) -> FloatArray:
     """Define an actor's SkelRoot and return the box it is in at each frame, ``(n, 2, 3)``."""
     character = actor.character
-    colors = performer_colors((mesh.color_rgb for mesh in character.meshes), index)
-    root = define_character(stage, path, character, colors)
+    root = define_character(stage, path, character, performer_colors(character, index))
     root.GetPrim().SetCustomDataByKey(DEVICE_KEY, actor.device)
     root.GetPrim().SetDisplayName(actor.device)
     animation = define_animation(

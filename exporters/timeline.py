@@ -1,0 +1,311 @@
+"""What was understood of a recording, under the trajectory it was understood from.
+
+For each device, on one time axis: where the prop went and how fast, the tokens of its movement,
+the phrases of the Score, and their Effort; where tracking was lost is hatched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from exporters.palette import RGB, action_colors
+from laban import AXES, RigidMotion
+from smd.errors import DoodleError
+from smd.files import replacing
+from smd.recognition.tokenizer import tokenize
+from smd.recognition.tokens import Direction, Token, TokenRun
+from smd.smoothing import smooth
+
+if TYPE_CHECKING:
+    from smd.doodle import Doodle, Dropout, Recording
+    from smd.score import Part, Score
+
+DPI = 110
+_INCHES_PER_S, _LEAST_INCHES, _MOST_INCHES = 0.75, 13.0, 80.0
+_LANES = {"trajectory": 2.0, "moves": 0.42, "turns": 0.42, "phrase": 0.55, "effort": 0.9}
+"""Height of each lane in inches, from top to bottom."""
+
+_SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62, 0.2, 0.6
+_AXIS_COLORS = {"x": "#c8385a", "y": "#2a9d55", "z": "#1f77b4"}
+_EFFORT_COLORS = {"time": "#e8710a", "weight": "#4b5fc8", "space": "#00939b", "flow": "#b8860b"}
+_INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A span of time in a lane, and what is written in it where it fits."""
+
+    start_s: float
+    end_s: float
+    text: str
+    color: str | RGB
+
+
+def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> None:
+    """Draw a recording's trajectories, tokens, phrases and Effort on one time axis.
+
+    Parameters
+    ----------
+    recording
+        What was played.
+    score
+        What was understood of it.
+    png_path
+        The picture: 0.75 inches a second at 110 dots an inch, 13 to 80 inches wide.
+
+    Raises
+    ------
+    ExportError
+        If the picture cannot be written.
+    """
+    parts = [part for part in score.performers if part.device in recording.devices]
+    first_s = min(doodle.time_s[0] for doodle in recording.doodles)
+    last_s = max(doodle.time_s[-1] for doodle in recording.doodles)
+    figure, lanes = _sheet(len(parts), float(first_s), float(last_s))
+    for part, axes in zip(parts, lanes, strict=True):
+        motions = list(_motions(recording.of(part.device)))
+        strings = [
+            tokenize(
+                motion, figure_height_m=score.figure_height_m, drawing=_drawing(doodle, motion)
+            )
+            for doodle, motion in motions
+        ]
+        _draw_trajectory(axes["trajectory"], [motion for _, motion in motions], part.device)
+        _draw_blocks(axes["moves"], _token_blocks(strings, lambda token: token.translation, "T"))
+        _draw_blocks(axes["turns"], _token_blocks(strings, lambda token: token.rotation, "R"))
+        _draw_blocks(axes["phrase"], _phrase_blocks(part, action_colors(score)))
+        _draw_effort(axes["effort"], part)
+        _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])
+    figure.suptitle(
+        f"{Path(score.recording or recording.source).name}    {first_s:.2f} to {last_s:.2f} s",
+        x=_SIDES_INCHES[0] / figure.get_figwidth(),
+        y=1.0 - 0.12 / figure.get_figheight(),
+        ha="left",
+        va="top",
+        fontsize=12,
+        color=_INK,
+    )
+    with replacing(Path(png_path)) as temporary:
+        # Without the program's version and date, the same input gives the same picture.
+        figure.savefig(temporary, format="png", dpi=DPI, metadata={"Software": None})
+
+
+def _motions(doodles: Iterable[Doodle]) -> Iterable[tuple[Doodle, RigidMotion]]:
+    """Yield each doodle that is long enough to have a speed, smoothed."""
+    for doodle in doodles:
+        try:
+            yield doodle, smooth(doodle)
+        except DoodleError:
+            continue
+
+
+def _drawing(doodle: Doodle, motion: RigidMotion) -> np.ndarray:
+    """Return whether the user meant to draw at each sample of the smoothed motion."""
+    assert doodle.drawing is not None  # the constructor fills it
+    nearest = np.searchsorted(doodle.time_s, motion.time_s, side="right") - 1
+    return doodle.drawing[np.clip(nearest, 0, len(doodle) - 1)]
+
+
+def _sheet(count: int, first_s: float, last_s: float) -> tuple[Figure, list[dict[str, Any]]]:
+    """Return an empty figure with the lanes of each device, all on one time axis."""
+    seconds = max(last_s - first_s, 0.1)
+    width = float(np.clip(_INCHES_PER_S * seconds, _LEAST_INCHES, _MOST_INCHES))
+    block = sum(_LANES.values()) + _BETWEEN_INCHES
+    height = _HEAD_INCHES + max(count, 1) * block + _FOOT_INCHES
+    figure = Figure(figsize=(width, height), facecolor="white")
+    FigureCanvasAgg(figure)
+    left, right = _SIDES_INCHES
+    lanes, top = [], height - _HEAD_INCHES
+    for _ in range(count):
+        axes = {}
+        for name, inches in _LANES.items():
+            top -= inches
+            box = (left / width, top / height, (width - left - right) / width, inches / height)
+            axes[name] = _lane(figure.add_axes(box), name, first_s, last_s)
+        axes["effort"].tick_params(bottom=True, labelbottom=True)
+        top -= _BETWEEN_INCHES
+        lanes.append(axes)
+    if lanes:
+        lanes[-1]["effort"].set_xlabel("seconds on the recording's clock", color=_FAINT, fontsize=9)
+    return figure, lanes
+
+
+def _lane(axes: Any, name: str, first_s: float, last_s: float) -> Any:
+    axes.set_xlim(first_s, last_s)
+    axes.tick_params(
+        bottom=False, labelbottom=False, left=False, labelsize=8, colors=_FAINT, length=3
+    )
+    for spine in axes.spines.values():
+        spine.set_color(_RULE)
+    axes.annotate(
+        "" if name == "trajectory" else name,
+        (0.0, 0.5),
+        (-30 if name == "effort" else -8, 0),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        ha="right",
+        va="center",
+        fontsize=9,
+        color=_INK,
+    )
+    if name not in ("trajectory", "effort"):
+        axes.set_ylim(0.0, 1.0)
+        axes.set_yticks([])
+    return axes
+
+
+def _draw_trajectory(axes: Any, motions: Sequence[RigidMotion], device: str) -> None:
+    """Draw the position in metres, and the speed behind it."""
+    axes.set_ylabel("metres", rotation=90, fontsize=8, color=_FAINT, labelpad=4)
+    axes.tick_params(left=True, labelleft=True)
+    axes.grid(axis="x", color=_RULE, linewidth=0.5)
+    fast = axes.twinx()
+    fast.tick_params(colors=_FAINT, labelsize=8, length=3)
+    fast.set_ylabel("speed, m/s", fontsize=8, color=_FAINT)
+    fast.spines[:].set_color(_RULE)
+    fast.set_zorder(axes.get_zorder() - 1)
+    axes.patch.set_visible(False)
+    for index, motion in enumerate(motions):
+        speed = np.linalg.norm(motion.velocity_m_s, axis=1)
+        fast.fill_between(motion.time_s, speed, color="#c9ced6", linewidth=0, alpha=0.6)
+        for k, (name, color) in enumerate(_AXIS_COLORS.items()):
+            label = name if index == 0 else None
+            axes.plot(motion.time_s, motion.position_m[:, k], color=color, lw=1.2, label=label)
+    fast.set_ylim(bottom=0.0)
+    axes.set_title(device, loc="left", fontsize=11, color=_INK, pad=3, fontweight="bold")
+    if motions:
+        axes.legend(loc="upper right", ncols=3, fontsize=8, frameon=False, borderaxespad=0.1)
+
+
+def _token_blocks(
+    strings: Iterable[Sequence[TokenRun]], part: Callable[[Token], Direction], letter: str
+) -> list[Block]:
+    """Return one block for each stretch in which one half of the token stays the same."""
+    blocks = []
+    for runs in strings:
+        for direction, group in groupby(runs, key=lambda run: part(run.token)):
+            members = list(group)
+            if any(direction):
+                token = Token(direction) if letter == "T" else Token(rotation=direction)
+                span = members[0].start_s, members[-1].end_s
+                blocks.append(Block(*span, str(token), _direction_color(direction)))
+    return blocks
+
+
+def _direction_color(direction: Direction) -> RGB:
+    """Return a colour that mixes X as red, Y as green and Z as blue; opposites are complements."""
+    unit = np.array(direction) / np.linalg.norm(direction)
+    red, green, blue = (0.62 + 0.3 * unit).tolist()
+    return red, green, blue
+
+
+def _phrase_blocks(part: Part, colors: dict[str, RGB]) -> list[Block]:
+    return [
+        Block(
+            phrase.start_s,
+            phrase.end_s,
+            f"{phrase.action} {round(100 * phrase.confidence)} %",
+            colors[phrase.action],
+        )
+        for phrase in part.phrases
+    ]
+
+
+def _draw_blocks(axes: Any, blocks: Sequence[Block]) -> None:
+    """Draw a lane of coloured blocks, each with its text, or as much of it as fits."""
+    axes.broken_barh(
+        [(block.start_s, block.end_s - block.start_s) for block in blocks],
+        (0.08, 0.84),
+        facecolors=[block.color for block in blocks],
+        edgecolors="white",
+        linewidths=0.6,
+    )
+    for block in blocks:
+        text = _fitting(axes, block)
+        if text:
+            bright = np.dot(_rgb(block.color), (0.3, 0.59, 0.11)) > 0.58
+            axes.text(
+                0.5 * (block.start_s + block.end_s),
+                0.47,
+                text,
+                ha="center",
+                va="center",
+                fontsize=8,
+                color=_INK if bright else "white",
+                clip_on=True,
+            )
+
+
+def _fitting(axes: Any, block: Block) -> str:
+    """Return the block's text, its first word, or nothing, whichever is not wider than it."""
+    inches = axes.get_figure().get_figwidth() * axes.get_position().width
+    low, high = axes.get_xlim()
+    room = inches * (block.end_s - block.start_s) / (high - low)
+    for text in (block.text, block.text.split(" ")[0]):
+        if 0.068 * len(text) + 0.05 < room:  # inches a letter at 8 points, at its widest
+            return text
+    return ""
+
+
+def _draw_effort(axes: Any, part: Part) -> None:
+    """Draw each phrase's Effort as bars from the middle: up is sudden, strong, direct, bound."""
+    axes.set_ylim(-1.15, 1.15)
+    axes.set_yticks([-1, 0, 1], ["−1", "0", "+1"])
+    axes.tick_params(left=True, labelleft=True)
+    axes.axhline(0.0, color=_RULE, linewidth=0.8)
+    shown = [
+        axis for axis in AXES if any(getattr(p.effort, axis) is not None for p in part.phrases)
+    ]
+    for index, axis in enumerate(shown):
+        bars = [
+            (p.start_s + (p.end_s - p.start_s) * (index + 0.1) / len(shown), p.end_s - p.start_s, v)
+            for p in part.phrases
+            if (v := getattr(p.effort, axis)) is not None
+        ]
+        axes.bar(
+            [left for left, _, _ in bars],
+            [value for _, _, value in bars],
+            width=[0.8 * length / len(shown) for _, length, _ in bars],
+            align="edge",
+            color=_EFFORT_COLORS[axis],
+            label=axis,
+        )
+    if shown:
+        axes.legend(
+            loc="center left",
+            bbox_to_anchor=(1.0, 0.5),
+            fontsize=8,
+            frameon=False,
+            handlelength=0.8,
+            labelspacing=0.2,
+            borderaxespad=0.3,
+        )
+
+
+def _mark_dropouts(axes: dict[str, Any], dropouts: Sequence[Dropout]) -> None:
+    """Hatch where tracking was lost: light where it was bridged, dark where the doodle splits."""
+    for dropout in dropouts:
+        for lane in axes.values():
+            lane.axvspan(
+                dropout.start_s,
+                dropout.end_s,
+                facecolor="#f6c9b4" if dropout.bridged else "#d98a6a",
+                alpha=0.45,
+                hatch="" if dropout.bridged else "////",
+                edgecolor="#a0522d",
+                linewidth=0,
+            )
+
+
+def _rgb(color: str | RGB) -> tuple[float, ...]:
+    from matplotlib.colors import to_rgb
+
+    return to_rgb(color)
