@@ -25,7 +25,6 @@ _AHEAD = ("T_Z", "T_X_Z", "T_N_X_Z")
 _AHEAD_UP = ("T_Y_Z", "T_X_Y_Z", "T_N_X_Y_Z")
 _AHEAD_DOWN = ("T_N_Y_Z", "T_X_N_Y_Z", "T_N_X_N_Y_Z")
 _BACK = ("T_N_Z", "T_X_N_Z", "T_N_X_N_Z", "T_Y_N_Z", "T_N_Y_N_Z")
-_FORWARD = ("T_Z", "T_X_Z", "T_N_X_Z", "T_Y_Z", "T_N_Y_Z")
 _UP = ("T_Y", "T_X_Y", "T_N_X_Y", "T_Y_N_Z")
 _DOWN = ("T_N_Y", "T_X_N_Y", "T_N_X_N_Y", "T_N_Y_N_Z")
 _TURNING_WALK = ("T_Z/R_Y", "T_Z/R_N_Y")
@@ -33,9 +32,9 @@ _TURNING_WALK = ("T_Z/R_Y", "T_Z/R_N_Y")
 
 def _rolling(sign: str) -> tuple[str, ...]:
     """Return the tokens of a roll about the front axis, gliding ahead; ``_N`` is to the right."""
-    turns = tuple(f"R{side}{sign}_Z" for side in ("", "_X", "_N_X", "_Y", "_N_Y"))
+    turns = tuple(f"T_Z/R{side}{sign}_Z" for side in ("", "_X", "_N_X", "_Y", "_N_Y"))
     moves = ("T_X_Z", "T_N_X_Z", "T_Y_Z", "T_N_Y_Z")
-    return (*(f"T_Z/{turn}" for turn in turns), *(f"{move}/R{sign}_Z" for move in moves))
+    return (*turns, *(f"{move}/R{sign}_Z" for move in moves))
 
 
 def _turning(sign: str) -> str:
@@ -60,14 +59,20 @@ def _pitching(sign: str, carried: str) -> str:
     return _either(*(f"R{sign}_X{side}" for side in sides), f"{carried}/R{sign}_X")
 
 
-_WALK = _either(*_AHEAD, *_TURNING_WALK)
-_RUN = " ".join(
+# A hand may lift the prop as it sets out, and set it down as it arrives.
+_WALK = f"T_Y_Z* {_either(*_AHEAD, *_TURNING_WALK)} T_N_Y_Z*"
+_LEVEL = _maybe(*_AHEAD)
+_VALLEY = "|".join(  # between two hops; straight down and straight up again would be two jumps
     (
-        _either("T_Y", *_AHEAD_UP),
-        _maybe(*_AHEAD),
-        f"({_either(*_AHEAD_DOWN)} {_maybe(*_AHEAD)} {_either(*_AHEAD_UP)} {_maybe(*_AHEAD)})+",
-        _either("T_N_Y", *_AHEAD_DOWN),
+        f"{_either(*_AHEAD_DOWN)} {_LEVEL} {_either('T_Y', *_AHEAD_UP)}",
+        f"{_either('T_N_Y', *_AHEAD_DOWN)} {_LEVEL} {_either(*_AHEAD_UP)}",
+        f"{_either(*_AHEAD)} {_either(*_AHEAD_UP)}",  # hopping uphill, with a tilted prop
+        f"{_either(*_AHEAD_DOWN)} {_either(*_AHEAD)}",  # or downhill
     )
+)
+_RUN = (
+    f"{_either('T_Y', *_AHEAD_UP)} {_LEVEL} (({_VALLEY}) {_LEVEL})+ "
+    f"{_either('T_N_Y', *_AHEAD_DOWN)}"
 )
 _JUMP = "|".join(  # one end at least is vertical, or it would be a hop of a run
     (
@@ -76,15 +81,16 @@ _JUMP = "|".join(  # one end at least is vertical, or it would be a hop of a run
         f"{_either(*_AHEAD_UP)} {_maybe(*_AHEAD)} {_maybe(*_AHEAD_DOWN)} {_either(*_DOWN)}",
     )
 )
-_PUNCH = f"{_either(*_FORWARD)} {_either(*_BACK)}"
-_THROW = " ".join(
-    (_either(*_BACK), "T_Y*", _either(*_AHEAD_UP), _maybe(*_AHEAD), _either(*_AHEAD_DOWN))
+_PUNCH = f"({_either(*_AHEAD, *_AHEAD_UP)}|{_either(*_AHEAD, *_AHEAD_DOWN)}) {_either(*_BACK)}"
+_ARC = (
+    f"({_either(*_AHEAD_UP)} {_either(*_AHEAD, *_AHEAD_DOWN)}"
+    f"|{_either(*_AHEAD)} {_either(*_AHEAD_DOWN)})"
 )
+_THROW = f"{_either(*_BACK)} T_Y* {_ARC}"
 _LEFT, _RIGHT = _either(*_rolling("")), _either(*_rolling("_N"))
-_LEVEL = _maybe(*_AHEAD)
 _FLY = (
-    f"{_LEVEL} ({_LEFT} {_LEVEL} {_RIGHT}|{_RIGHT} {_LEVEL} {_LEFT}) "
-    f"{_maybe(*_AHEAD, *_rolling(''), *_rolling('_N'))}"
+    f"({_LEFT} {_LEVEL} {_RIGHT} {_LEVEL} {_LEFT}|{_RIGHT} {_LEVEL} {_LEFT} {_LEVEL} {_RIGHT}) "
+    f"{_maybe(*_AHEAD, *_rolling(''), *_rolling('_N'), 'R_Z', 'R_N_Z')}"
 )
 
 HUMANOID_ACTIONS: tuple[Action, ...] = (

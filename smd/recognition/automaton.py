@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,21 +20,22 @@ FAR = 1 << 30
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Automaton:
-    """A pattern compiled for measuring: its positions, and how many tokens lie between them.
+    """A pattern compiled for measuring: its states, and how many tokens lie between them.
 
-    A position is one occurrence of a token in the pattern (Glushkov's construction [1]_). A
-    string follows a path through positions and may stay at each as long as it likes, since
-    repetition of a token does not count; for the same reason neighbouring positions of one token
-    can be read as one. The counts hold the least number of tokens that a path passes without
-    reading them, which are the tokens missing from the string.
+    Each occurrence of a token in the pattern is a position (Glushkov's construction [1]_), and
+    positions with the same past and future share a state, as all of ``(T_Z|T_X_Z)+`` does. A
+    string follows a way through states and may stay at each as long as it likes, since repetition
+    of a token does not count; for the same reason neighbouring positions of one token can be read
+    as one. The counts hold the least number of tokens that a way passes without reading them,
+    which are the tokens missing from the string.
 
     Attributes
     ----------
-    tokens : the token of each of the p positions.
-    enter : (p,) int64, tokens missing if a string begins at a position.
-    step : (p, p) int64, ``step[a, b]`` tokens missing if position b is read after a; `FAR` where
-        no path leads from a to b.
-    leave : (p,) int64, tokens missing if a string ends at a position.
+    tokens : the tokens that each of the p states reads.
+    enter : (p,) int64, tokens missing if a string begins at a state.
+    step : (p, p) int64, ``step[a, b]`` tokens missing if state b reads after a; `FAR` where no
+        way leads from a to b.
+    leave : (p,) int64, tokens missing if a string ends at a state.
 
     References
     ----------
@@ -41,7 +43,7 @@ class Automaton:
        1961.
     """
 
-    tokens: tuple[Token, ...]
+    tokens: tuple[frozenset[Token], ...]
     enter: IntArray
     step: IntArray
     leave: IntArray
@@ -76,17 +78,26 @@ class Occurrences:
     start: IntArray
 
 
+@lru_cache(maxsize=256)
 def compile_automaton(pattern: Pattern) -> Automaton:
-    """Compile a pattern; for p positions this takes O(p^3) time, once."""
+    """Compile a pattern; for m occurrences of tokens this takes O(m^3) time, once."""
     tokens: list[Token] = []
     follow: set[tuple[int, int]] = set()
     first, last, _ = _glushkov(pattern.root, tokens, follow)
     changes = _least_changes(tokens, follow)
+    enter = changes[sorted(first)].min(axis=0)
+    step = np.maximum(changes - 1, 0)
+    leave = changes[:, sorted(last)].min(axis=1)
+    alike: dict[bytes, list[int]] = {}
+    for i in range(len(tokens)):
+        key = np.concatenate([[enter[i], leave[i]], step[i], step[:, i]]).tobytes()
+        alike.setdefault(key, []).append(i)
+    kept = [positions[0] for positions in alike.values()]
     return Automaton(
-        tokens=tuple(tokens),
-        enter=changes[sorted(first)].min(axis=0),
-        step=np.maximum(changes - 1, 0),
-        leave=changes[:, sorted(last)].min(axis=1),
+        tokens=tuple(frozenset(tokens[i] for i in positions) for positions in alike.values()),
+        enter=enter[kept],
+        step=step[np.ix_(kept, kept)],
+        leave=leave[kept],
     )
 
 
@@ -107,7 +118,7 @@ def least_cost(automaton: Automaton, *, read: FloatArray, skip: FloatArray) -> f
     Parameters
     ----------
     read
-        ``(n, p)``, what it costs to take token i for the token of a position.
+        ``(n, p)``, what it costs to take token i for one that a state reads.
     skip
         ``(n,)``, what it costs to leave token i out. A missing token costs 1.
     """
@@ -146,11 +157,10 @@ def occurrences(automaton: Automaton, word: Sequence[Token]) -> Occurrences:
 
 
 def wrong_tokens(automaton: Automaton, word: Sequence[Token]) -> IntArray:
-    """Return ``(n, p)``: 0 where a token of the string is that of the position, 1 elsewhere."""
-    index = {token: i for i, token in enumerate(dict.fromkeys((*automaton.tokens, *word)))}
-    given = np.array([index[token] for token in word], dtype=np.int64)
-    wanted = np.array([index[token] for token in automaton.tokens], dtype=np.int64)
-    return (given[:, None] != wanted[None, :]).astype(np.int64)
+    """Return ``(n, p)``: 0 where a state reads the token of the string, 1 elsewhere."""
+    known = {token: [token not in reads for reads in automaton.tokens] for token in set(word)}
+    wrong = np.array([known[token] for token in word], dtype=np.int64)
+    return wrong.reshape(len(word), len(automaton))
 
 
 def _arrivals(reached: FloatArray, step: IntArray) -> FloatArray:

@@ -3,41 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from smd.geometry.arrays import FloatArray
-from smd.recognition.automaton import Automaton, compile_automaton, least_cost, wrong_tokens
+from smd.recognition.automaton import compile_automaton, least_cost
+from smd.recognition.costs import DEFAULT_COSTS, Costs, RunCosts, run_costs
 from smd.recognition.pattern import Pattern
-from smd.recognition.segmentation import least_cost_segments
-from smd.recognition.tokens import STILL, TokenRun
-
-
-@dataclass(frozen=True, slots=True)
-class Costs:
-    """What recognition weighs against each other, in edits of a pattern.
-
-    Attributes
-    ----------
-    action : of seeing an action at all.
-    worth : how much movement (figure heights travelled plus radians turned) costs one edit to
-        leave unexplained, or out of an action; less costs less in proportion, more no more.
-    stroke : movement below which a run is hardly a stroke of its own: taking it for a token of a
-        pattern then costs up to one edit, as if the token were missing.
-    still_per_s : of stillness within an action, a second. Two like gestures with a pause between
-        are two when it is longer than ``action / still_per_s``.
-    sharpness : of the confidence, per edit.
-    """
-
-    action: float = 0.4
-    worth: float = 1.0
-    stroke: float = 0.15
-    still_per_s: float = 1.0
-    sharpness: float = 3.0
-
-
-DEFAULT_COSTS = Costs()
+from smd.recognition.segmentation import Segment, least_cost_segments
+from smd.recognition.tokens import Token, TokenRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,18 +48,19 @@ def recognize(
     """Find the actions in a tokenized doodle.
 
     The runs are cut into actions and unexplained rest at the least total cost: every action
-    costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run as
-    much as there was movement in it, unexplained stillness nothing. Little or aimless movement is
-    therefore cheaper to leave alone than to explain.
+    costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run in
+    proportion to the movement in it, unexplained stillness nothing. Little or aimless movement is
+    therefore cheaper to leave alone than to explain. Faint runs at an action's ends that go its
+    way are added to it.
 
-    The distance is Levenshtein's (section 4.2 of the paper) with two prices that depend on the
-    run: leaving a run out costs less than one edit when there is little movement in it, and
-    taking it for the token that it is costs something when there is next to none.
+    The distance is Levenshtein's (section 4.2 of the paper [1]_) with two prices that depend on
+    the run: leaving a run out costs less than one edit when there is little movement in it, and
+    taking it for the token that it is costs something when it is faint.
 
     The confidence weighs the chosen action against the other ones and against nothing, over the
-    same runs: with the cost d of each, it is ``exp(-s d_chosen) / sum(exp(-s d))``, where s is
-    ``costs.sharpness`` and nothing costs its unexplained runs less ``costs.action``. It ranks
-    how clear-cut spans are and is not a measured probability.
+    same runs: with the cost d of each it is ``exp(-s d_chosen) / sum(exp(-s d))``, where s is
+    ``costs.sharpness``, and nothing costs its unexplained runs less ``costs.action``. It ranks
+    how clear-cut spans are; it is not a measured probability.
 
     Parameters
     ----------
@@ -97,53 +73,76 @@ def recognize(
     -------
     tuple of Span
         In time order, without overlap; each begins and ends with a moving run.
+
+    References
+    ----------
+    .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
     """
     names = tuple(patterns)
     automata = [compile_automaton(pattern) for pattern in patterns.values()]
-    word = [run.token for run in runs]
-    extent = np.array([run.travel_heights + run.turn_rad for run in runs])
-    is_still = np.array([token == STILL for token in word], dtype=bool)
-    still_s = np.array([run.end_s - run.start_s for run in runs])
-    unexplained = np.where(is_still, 0.0, np.minimum(extent / costs.worth, 1.0))
-    skip = np.where(is_still, costs.still_per_s * still_s, unexplained)
-    faint = np.where(is_still, 0.0, np.maximum(1.0 - extent / costs.stroke, 0.0))
-    # Stillness taken for a movement costs more than that movement missing, or it would be a way
-    # to stretch an action over the rest beside it.
-    wrong = np.where(is_still, 1.0 + skip, 1.0)
-    read = [np.maximum(wrong_tokens(a, word) * wrong[:, None], faint[:, None]) for a in automata]
+    prices = run_costs(runs, costs)
+    read = [prices.of_reading(automaton, runs) for automaton in automata]
     segments = least_cost_segments(
-        automata, read=read, skip=skip, unexplained=unexplained, action=costs.action
+        automata,
+        read=read,
+        skip=prices.skip,
+        unexplained=prices.unexplained,
+        action=costs.action,
     )
     spans = []
-    for segment in segments:
+    for segment, whole in zip(segments, _with_faint_ends(segments, runs, prices), strict=True):
         part = slice(segment.first, segment.last)
-        distance = _distances(automata, [r[part] for r in read], skip[part])
-        nothing = float(unexplained[part].sum()) - costs.action
-        other = [i for i in np.argsort(distance, kind="stable") if i != segment.index]
+        distance = [
+            least_cost(automaton, read=reading[part], skip=prices.skip[part])
+            for automaton, reading in zip(automata, read, strict=True)
+        ]
+        nothing = float(prices.unexplained[part].sum()) - costs.action
+        nearest = sorted(range(len(names)), key=distance.__getitem__)
         spans.append(
             Span(
                 action=names[segment.index],
-                first_run=segment.first,
-                last_run=segment.last,
-                start_s=runs[segment.first].start_s,
-                end_s=runs[segment.last - 1].end_s,
-                distance=float(distance[segment.index]),
-                confidence=_confidence(segment.index, np.append(distance, nothing), costs),
-                alternatives=tuple((names[i], float(distance[i])) for i in other),
+                first_run=whole.first,
+                last_run=whole.last,
+                start_s=runs[whole.first].start_s,
+                end_s=runs[whole.last - 1].end_s,
+                distance=distance[segment.index],
+                confidence=_share(segment.index, np.array([*distance, nothing]), costs.sharpness),
+                alternatives=tuple((names[i], distance[i]) for i in nearest if i != segment.index),
             )
         )
     return tuple(spans)
 
 
-def _distances(
-    automata: Sequence[Automaton], read: Sequence[FloatArray], skip: FloatArray
-) -> FloatArray:
-    """Return the distance of one string to each pattern."""
-    return np.array(
-        [least_cost(one, read=r, skip=skip) for one, r in zip(automata, read, strict=True)]
-    )
+def _share(chosen: int, cost: FloatArray, sharpness: float) -> float:
+    """Return the weight of one explanation among all."""
+    return float(1.0 / np.exp(-sharpness * (cost - cost[chosen])).sum())
 
 
-def _confidence(chosen: int, cost: FloatArray, costs: Costs) -> float:
-    """Return the chosen explanation's share among all."""
-    return float(1.0 / np.exp(-costs.sharpness * (cost - cost[chosen])).sum())
+def _with_faint_ends(
+    segments: Sequence[Segment], runs: Sequence[TokenRun], prices: RunCosts
+) -> list[Segment]:
+    """Return the segments with the faint runs beside them that go the same way.
+
+    A hand that sets out or arrives is slow, and its direction uncertain.
+    """
+    grown: list[Segment] = []
+    for i, segment in enumerate(segments):
+        first, last = segment.first, segment.last
+        start = grown[-1].last if grown else 0
+        end = segments[i + 1].first if i + 1 < len(segments) else len(runs)
+        while first > start and prices.faintness[first - 1] > 0.0:
+            if not _go_the_same_way(runs[first - 1].token, runs[first].token):
+                break
+            first -= 1
+        while last < end and prices.faintness[last] > 0.0:
+            if not _go_the_same_way(runs[last].token, runs[last - 1].token):
+                break
+            last += 1
+        grown.append(replace(segment, first=first, last=last))
+    return grown
+
+
+def _go_the_same_way(a: Token, b: Token) -> bool:
+    """Tell whether two tokens' directions are less than a right angle apart."""
+    ours, theirs = (*a.translation, *a.rotation), (*b.translation, *b.rotation)
+    return sum(x * y for x, y in zip(ours, theirs, strict=True)) > 0

@@ -38,7 +38,8 @@ def least_cost_segments(
     Parameters
     ----------
     read
-        For each automaton ``(n, p)``: what it costs to take token i for the token of a position.
+        For each automaton ``(n, p)``: what it costs to take token i for one that a state
+        reads.
     skip
         ``(n,)``, what it costs to leave token i out of a segment around it.
     unexplained

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from laban import RigidMotion
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import inverse, normalized, rotate
-from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.recognition.tokens import Direction, Token, TokenRun
 
 _SIGNS = (-1, 0, 1)
@@ -26,26 +26,27 @@ class Thresholds:
 
     Attributes
     ----------
-    still : the paper's epsilon. Its sum of squares needs one unit: speed is counted in figure
-        heights per second (a figurine that moves by its own height moves as visibly as one that
-        turns by a radian), rotation in rad/s. 0.05 is 0.039 m/s for a figurine of 0.175 m.
-    turning_rad_s : slower turning than this is the wobble of a hand. Higher than the paper's
-        epsilon alone (0.22 rad/s), below which no hand that walks a figurine stays.
+    still : the paper's epsilon, 0.05. Its sum of squares needs one unit, so speed is counted in
+        figure heights per second: a figurine that moves by its own height moves as visibly as one
+        that turns by a radian. Alone, it is 0.039 m/s for a figurine of 0.175 m, or 0.22 rad/s.
+    moving_on : movement that has begun goes on down to this share of that speed; lower, and the
+        drift of a resting hand would count.
+    turning_rad_s : turning begins here and goes on down to epsilon. A hand that walks a figurine
+        wobbles faster than epsilon, so that turning could not begin there.
     lever_heights : distance from the prop's centre, in figure heights, at which people take the
         prop to turn it. Moving that turning about such a point explains is not meant: half a
         height reaches every point of the figurine.
-    swing_m : radius of an arm's natural swing. Turning that moving on such a circle explains is
-        not meant.
-    hold : a part that is on stays on down to this fraction of its threshold.
+    swing_m : an arm's length. Turning no faster than an arm that swings about the shoulder would
+        on the same path is not meant.
     stay_rad : another direction must be nearer than the current one by this angle to replace it.
-    shortest_s : shorter runs are absorbed ("repeated more than twice" at 60 Hz, section 4.3).
+    shortest_s : only longer runs are kept ("repeated more than twice" at 60 Hz, section 4.3).
     """
 
     still: float = 0.05
+    moving_on: float = 0.5
     turning_rad_s: float = 0.8
     lever_heights: float = 0.5
     swing_m: float = 0.7
-    hold: float = 0.28
     stay_rad: float = np.radians(8.0)
     shortest_s: float = 2.0 / 60.0
 
@@ -95,11 +96,14 @@ def tokenize(
     # The hand twists as well as swings on its way, so all turning is compared with the path.
     speed_m_s = np.linalg.norm(velocity, axis=-1)
     meant_turning = _shortened(turning, speed_m_s / thresholds.swing_m)
-    rotation = _bins(meant_turning, thresholds.turning_rad_s, on, thresholds)
+    epsilon = np.sqrt(thresholds.still)
+    turning_levels = (thresholds.turning_rad_s, min(epsilon, thresholds.turning_rad_s))
+    rotation = _bins(meant_turning, turning_levels, on, thresholds.stay_rad)
     lever_m = thresholds.lever_heights * figure_height_m
     meant_velocity = _beyond_lever(velocity, turning * (rotation != NONE)[:, None], lever_m)
-    level_m_s = np.sqrt(thresholds.still) * figure_height_m
-    translation = _bins(meant_velocity, level_m_s, on, thresholds)
+    moving_m_s = epsilon * figure_height_m
+    moving_levels = (moving_m_s, thresholds.moving_on * moving_m_s)
+    translation = _bins(meant_velocity, moving_levels, on, thresholds.stay_rad)
 
     samples_per_s = (len(motion) - 1) / max(motion.time_s[-1] - motion.time_s[0], 1e-9)
     # + 1e-9: 2/60 s at 60 Hz is 1.999…96 samples, and a run must be longer than that.
@@ -124,17 +128,19 @@ def _beyond_lever(velocity: FloatArray, turning: FloatArray, lever_m: float) -> 
     return along + _shortened(velocity - along, lever_m * np.linalg.norm(turning, axis=-1))
 
 
-def _bins(vector: FloatArray, level: float, on: BoolArray, thresholds: Thresholds) -> IntArray:
-    """Return each vector's bin, none where it stays below the level."""
+def _bins(
+    vector: FloatArray, levels: tuple[float, float], on: BoolArray, stay_rad: float
+) -> IntArray:
+    """Return each vector's bin; it begins above the first level and ends below the second."""
     length = np.linalg.norm(vector, axis=-1)
-    strong = on & (length > level)
-    held = _joined_to(strong, on & (length > thresholds.hold * level))
+    strong = on & (length > levels[0])
+    held = _joined_to(strong, on & (length > levels[1]))
     source = _nearest_in_run(strong, held)
     bins = np.full(len(vector), NONE)
     where = np.flatnonzero(held)
     if len(where):
         first = np.flatnonzero(np.diff(where, prepend=-2) > 1)
-        bins[where] = _steady_directions(vector[source[where]], first, thresholds.stay_rad)
+        bins[where] = _steady_directions(vector[source[where]], first, stay_rad)
     return bins
 
 

@@ -28,6 +28,7 @@ from smd.errors import DoodleError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
     multiply,
+    normalized,
     quaternion_about,
     quaternion_from_rotvec,
     rotate,
@@ -36,6 +37,9 @@ from smd.score import Phrase
 
 RATE_HZ = 90.0
 """Rate of the simulated tracker."""
+
+REBOUND_S = 0.3
+"""How long a hand takes to spring back after a gesture."""
 
 Vector = tuple[float, float, float]
 
@@ -94,6 +98,9 @@ class Person:
     swing_rad_per_m : how much the arm's swing turns the prop: 3 x 3, rotation per displacement.
     wobble_rad, drift_m : slow unrest of the hand, below 1.5 Hz, amplitude.
     tremor_m, tremor_rad : of the hand, 8 to 12 Hz, amplitude.
+    misfacing_rad : standing turn of the prop in the hand, about up.
+    roundness : how far a stroke bows out sideways, as a share of its length.
+    rebound_m : how far the hand springs back after a gesture.
     """
 
     size: float = 1.0
@@ -109,6 +116,9 @@ class Person:
     drift_m: float = 0.0
     tremor_m: float = 0.0
     tremor_rad: float = 0.0
+    misfacing_rad: float = 0.0
+    roundness: float = 0.0
+    rebound_m: float = 0.0
 
 
 STEADY = Person()
@@ -118,6 +128,7 @@ STEADY = Person()
 def simulated_person(rng: np.random.Generator) -> Person:
     """Return a person drawn at random."""
     swing = rng.normal(0.0, 0.4, (3, 3))
+    further = rng.spawn(1)[0]
     return Person(
         size=float(np.exp(rng.normal(0.0, 0.15))),
         pace=float(np.exp(rng.normal(0.0, 0.15))),
@@ -132,6 +143,9 @@ def simulated_person(rng: np.random.Generator) -> Person:
         drift_m=rng.uniform(0.5e-3, 1.5e-3),
         tremor_m=rng.uniform(0.1e-3, 0.4e-3),
         tremor_rad=rng.uniform(0.1, 0.25) * np.radians(1.0),
+        misfacing_rad=further.normal(0.0, np.radians(6.0)),
+        roundness=further.uniform(0.0, 0.08),
+        rebound_m=further.uniform(0.0, 5e-3),
     )
 
 
@@ -297,11 +311,14 @@ def gesture(
 
 @dataclass(frozen=True, slots=True)
 class _Played:
-    """A gesture on a take's clock, and the frame (upright, with the aim's error) it is seen in."""
+    """A gesture on a take's clock, the upright frame it is drawn in (with the aim's error), and
+    a unit vector for each of its strokes, across it, to which it bows out.
+    """
 
     gesture: Gesture
     start_s: float
     facing_xyzw: FloatArray
+    side: FloatArray
 
 
 class Take:
@@ -359,7 +376,9 @@ class Take:
             quaternion_about([0.0, 1.0, 0.0], self._heading_rad + aim[0]),
             quaternion_about([1.0, 0.0, 0.0], aim[1]),
         )
-        self._played.append(_Played(played, self.now_s, facing))
+        moves = np.array([stroke.move_m for stroke in played.strokes])
+        side = normalized(np.cross(moves, rng.normal(size=moves.shape)))
+        self._played.append(_Played(played, self.now_s, facing, side))
         self._heading_rad += sum(stroke.turn_rad[1] for stroke in played.strokes)
         self.now_s += played.duration_s
         return self
@@ -389,15 +408,22 @@ class Take:
         )
         local = np.zeros_like(moved)
         for played in self._played:
-            for stroke in played.gesture.strokes:
-                done = progress(
-                    (time_s - played.start_s - stroke.start_s) / stroke.duration_s, stroke.cruise
-                )[:, None]
-                moved += done * rotate(played.facing_xyzw, np.asarray(stroke.move_m))
-                local += done * np.asarray(stroke.move_m)
+            last_s = played.gesture.duration_s
+            for stroke, side in zip(played.gesture.strokes, played.side, strict=True):
+                begun_s = time_s - played.start_s - stroke.start_s
+                done = progress(begun_s / stroke.duration_s, stroke.cruise)[:, None]
+                move = np.asarray(stroke.move_m)
+                bow = 4.0 * person.roundness * float(np.linalg.norm(move)) * side
+                path = done * move + done * (1.0 - done) * bow
+                if stroke.end_s > last_s - 1e-9:
+                    back = progress((begun_s - stroke.duration_s) / REBOUND_S)[:, None]
+                    path -= person.rebound_m * back * normalized(move)
+                moved += rotate(played.facing_xyzw, path)
+                local += path
                 turn = quaternion_from_rotvec(done * np.asarray(stroke.turn_rad))
                 orientation = multiply(orientation, turn)
-        askew = quaternion_from_rotvec([person.askew_rad[0], 0.0, person.askew_rad[1]])
+        tilt = [person.askew_rad[0], person.misfacing_rad, person.askew_rad[1]]
+        askew = quaternion_from_rotvec(tilt)
         swing = 0.3 * np.tanh(local @ np.asarray(person.swing_rad_per_m).T / 0.3)
         unrest = _waves(time_s, person.wobble_rad, 0.3, 1.5, rng)
         unrest = unrest + _waves(time_s, person.tremor_rad, 8.0, 12.0, rng)

@@ -1,0 +1,87 @@
+"""Costs: what recognition pays for reading a run, leaving it out, or leaving it alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.geometry.arrays import FloatArray
+from smd.recognition.automaton import Automaton, wrong_tokens
+from smd.recognition.tokens import STILL, TokenRun
+
+
+@dataclass(frozen=True, slots=True)
+class Costs:
+    """What recognition weighs against each other, in edits of a pattern.
+
+    Attributes
+    ----------
+    action : of seeing an action at all. Together with ``unexplained`` it says how much movement
+        an action needs: 0.4 of ``worth``, which is 7 cm or 23 degrees, where nothing is wrong.
+    worth : how much movement (figure heights travelled plus radians turned) costs one edit to
+        leave out of an action; less costs less in proportion, more no more.
+    unexplained : of leaving a run outside of all actions, as a share of leaving it out of one.
+        Were it 1, an action could reach over any amount of other movement at no price.
+    still_per_s : of stillness within an action, a second. Two like gestures with a pause between
+        are two when it is longer than ``action / still_per_s``; a bow may be held while it costs
+        less than its two strokes left unexplained.
+    faint, faint_beside : movement below which a run is hardly a stroke of its own: an amount, or
+        a share of the larger run beside it if that is less. Taking such a run for a token of a
+        pattern costs up to one edit, as if the token were missing.
+    sharpness : of the confidence, per edit.
+    """
+
+    action: float = 0.2
+    worth: float = 1.0
+    unexplained: float = 0.5
+    still_per_s: float = 0.5
+    faint: float = 0.3
+    faint_beside: float = 1.0 / 3.0
+    sharpness: float = 3.0
+
+
+DEFAULT_COSTS = Costs()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunCosts:
+    """What each of n runs costs.
+
+    Attributes
+    ----------
+    skip : (n,), left out of an action around it.
+    unexplained : (n,), left outside of all actions.
+    faintness : (n,), 0 for a stroke of its own to 1 for next to nothing beside its neighbours.
+    is_still : (n,) bool.
+    """
+
+    skip: FloatArray
+    unexplained: FloatArray
+    faintness: FloatArray
+    is_still: np.ndarray
+
+    def of_reading(self, automaton: Automaton, runs: Sequence[TokenRun]) -> FloatArray:
+        """Return ``(n, p)``, the cost of taking each run for a token that a state reads."""
+        # Stillness taken for a movement costs more than that movement missing, or it would be a
+        # way to stretch an action over the rest beside it.
+        wrong = np.where(self.is_still, 1.0 + self.skip, 1.0)
+        mistaken = wrong_tokens(automaton, [run.token for run in runs]) * wrong[:, None]
+        return np.maximum(mistaken, self.faintness[:, None])
+
+
+def run_costs(runs: Sequence[TokenRun], costs: Costs) -> RunCosts:
+    """Return what each run costs, apart from what it is taken for."""
+    extent = np.array([run.travel_heights + run.turn_rad for run in runs])
+    is_still = np.array([run.token == STILL for run in runs], dtype=bool)
+    duration_s = np.array([run.end_s - run.start_s for run in runs])
+    movement = np.where(is_still, 0.0, np.minimum(extent / costs.worth, 1.0))
+    beside = np.maximum(np.append(extent[1:], 0.0), np.append(0.0, extent[:-1]))
+    enough = np.maximum(np.minimum(costs.faint, costs.faint_beside * beside), 1e-12)
+    return RunCosts(
+        skip=np.where(is_still, costs.still_per_s * duration_s, movement),
+        unexplained=costs.unexplained * movement,
+        faintness=np.where(is_still, 0.0, np.maximum(1.0 - extent / enough, 0.0)),
+        is_still=is_still,
+    )
