@@ -38,8 +38,8 @@ def idle(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-0.5, lean=2.5, tilt=-0.8),
             chest=Turn(yaw=0.5, lean=1.4, tilt=0.8),
             head=Turn(yaw=1.0, lean=4.0, tilt=0.5),
-            left_arm=Arm(to=(0.16, -1.0, 0.07), bend=18.0),
-            right_arm=Arm(to=(0.15, -1.0, 0.06), bend=18.0),
+            left_arm=Arm(to=(0.175, -1.0, 0.07), bend=18.0),
+            right_arm=Arm(to=(0.165, -1.0, 0.06), bend=18.0),
         ),
         Key(
             0.75,
@@ -77,7 +77,7 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
     """Make the turn to the left; the one to the right is posed as its mirror image."""
     duration = 1.5
     hanging_out = Arm(to=(0.34, -1.0, 0.10), bend=24.0)
-    hanging_in = Arm(to=(0.12, -1.0, 0.24), bend=26.0)
+    hanging_in = Arm(to=(0.21, -1.0, 0.22), bend=26.0)
     stand = STAND if to > 0 else mirrored(STAND)
     keys = [
         stand,
@@ -180,6 +180,11 @@ def punch(skeleton: Skeleton) -> Clip:
     )
     keys = [
         STAND,
+        Key(
+            0.14,
+            left_arm=Arm(to=(0.22, -0.9, 0.50), bend=70.0, curl=80.0),
+            right_arm=Arm(to=(0.22, -0.9, 0.45), bend=75.0, curl=80.0),
+        ),
         Key(  # guard
             0.30,
             place=Place(left=0.015, up=-0.060, ahead=0.05),
@@ -368,6 +373,7 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=18.0, lean=12.0),
             chest=Turn(yaw=26.0, lean=18.0),
             head=Turn(yaw=3.0, lean=9.0),
+            right_arm=Arm(to=(-0.05, -0.80, 0.80), bend=34.0, twist=35.0),
         ),
         Key(  # the weight is back on the rear leg
             1.72,

@@ -34,7 +34,7 @@ def walk(skeleton: Skeleton) -> Clip:
     half = [
         Key(  # contact: the left heel strikes
             0.0,
-            place=Place(left=-0.004, up=-0.043),
+            place=Place(left=-0.004, up=-0.038),
             hips=Turn(yaw=-6.0, lean=3.0, tilt=0.5),
             chest=Turn(yaw=6.0, lean=3.0, tilt=0.0),
             head=Turn(yaw=1.0, lean=3.0, tilt=0.0),
@@ -43,21 +43,21 @@ def walk(skeleton: Skeleton) -> Clip:
         ),
         Key(  # down: the weight arrives
             0.11,
-            place=Place(left=0.014, up=-0.049),
+            place=Place(left=0.014, up=-0.041),
             hips=Turn(yaw=-4.5, lean=4.0, tilt=3.5),
             chest=Turn(yaw=5.0, lean=4.0, tilt=-1.5),
             head=Turn(yaw=0.5, lean=5.0, tilt=0.0),
         ),
         Key(  # passing
             0.27,
-            place=Place(left=0.030, up=-0.021),
+            place=Place(left=0.030, up=-0.017),
             hips=Turn(yaw=0.5, lean=3.0, tilt=2.0),
             chest=Turn(yaw=0.0, lean=2.5, tilt=-1.5),
             head=Turn(yaw=0.0, lean=3.0, tilt=0.0),
         ),
         Key(  # up: rolling over the ball
             0.39,
-            place=Place(left=0.018, up=-0.029),
+            place=Place(left=0.018, up=-0.024),
             hips=Turn(yaw=4.5, lean=2.5, tilt=0.5),
             chest=Turn(yaw=-4.5, lean=2.0, tilt=-0.5),
             head=Turn(yaw=-0.5, lean=2.0, tilt=0.0),
@@ -72,7 +72,7 @@ def walk(skeleton: Skeleton) -> Clip:
         land_pitch=-20.0,
         flat=0.10,
         leave_pitch=66.0,
-        roll=0.32,
+        roll=0.36,
         swing=(
             Via(0.20, 0.130, along=0.24, pitch=56.0, toes=24.0),
             Via(0.46, 0.105, along=0.53, pitch=24.0),
@@ -93,7 +93,7 @@ def run(skeleton: Skeleton) -> Clip:
             chest=Turn(yaw=9.0, lean=13.0, tilt=0.0),
             head=Turn(yaw=1.0, lean=6.0),
             left_arm=Arm(
-                to=(0.22, -1.0, -0.12), bend=88.0, elbow=(0.35, 0.0, -1.0), twist=5.0, curl=115.0
+                to=(0.34, -1.0, -0.12), bend=88.0, elbow=(0.35, 0.0, -1.0), twist=5.0, curl=115.0
             ),
             right_arm=Arm(
                 to=(-0.20, -0.25, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=5.0, curl=115.0

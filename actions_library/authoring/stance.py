@@ -20,8 +20,8 @@ STAND = Key(
     hips=Turn(yaw=-2.0, lean=2.0, tilt=1.5),
     chest=Turn(yaw=1.5, lean=0.5, tilt=-1.0),
     head=Turn(yaw=0.0, lean=3.0, tilt=0.0),
-    left_arm=Arm(to=(0.15, -1.0, 0.05), bend=15.0),
-    right_arm=Arm(to=(0.17, -1.0, 0.08), bend=21.0),
+    left_arm=Arm(to=(0.17, -1.0, 0.05), bend=15.0),
+    right_arm=Arm(to=(0.175, -1.0, 0.08), bend=21.0),
 )
 """Weight a little on the left leg, arms hanging, eyes ahead."""
 
