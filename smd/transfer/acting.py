@@ -13,6 +13,10 @@ from smd.transfer.poses import Poses, mixed, sampled
 from smd.transfer.repertoire import Piece
 from smd.transfer.transitions import TRANSITION_S, carried_over
 
+SEEN = 0.1
+"""Presence from which a clip says which feet stand: a foot that swings there must be free early,
+or what is left of its swing is too short for the way."""
+
 _STEP_S = 1e-3
 """Time over which the velocities on both sides of a boundary are taken."""
 
@@ -52,7 +56,7 @@ def acted_contacts(
     for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
         now_s = time_s[rows]
         frame, idle_frame = move.frame_at(now_s), (now_s - clock_s) * idle.clip.rate_hz
-        seen = move.presence_at(now_s) >= 0.5
+        seen = move.presence_at(now_s) >= SEEN
         for column, foot in enumerate(feet):
             stands[rows, column] = np.where(
                 seen, move.piece.stands_at(foot, frame), idle.stands_at(foot, idle_frame)

@@ -32,6 +32,12 @@ STILL_M_S = 0.05
 """Speed of a sole below which it hardly matters how slow it is."""
 
 
+CLEARANCE_M = 0.02
+"""How high a swinging foot is at least; mixed with standing, a step may be lower than that."""
+
+CLEARING_S = 0.1
+"""Time in which it gets there and comes down again; never more than half the swing."""
+
 SHORTEST_PLANT = 2
 """Frames a foot stands at least; in one frame alone it cannot slide."""
 
@@ -96,6 +102,7 @@ def footing(
     aside = _evened(back, plants, rate_hz)
     # Upward, a foot may leave the ground at once: carried on, its speed would press it down.
     up = np.maximum(_evened(-above[:, None], plants, 0.0)[:, 0], -above) + lift_m
+    up += _cleared(above + up, plants, rate_hz)
     return Footing(down, np.stack([aside[:, 0], up, aside[:, 1]], axis=-1), turn)
 
 
@@ -129,6 +136,20 @@ def _about_mean(value: FloatArray, weight: FloatArray, plants: IntArray) -> Floa
         share = weight[start:end] / weight[start:end].sum()
         value[start:end] -= share @ value[start:end]
     return value
+
+
+def _cleared(above_m: FloatArray, plants: IntArray, rate_hz: float) -> FloatArray:
+    """Return how much higher ``(n,)`` each swing between two plants must go to clear the ground."""
+    more = np.zeros_like(above_m)
+    for leave, land in zip(plants[:-1, 1], plants[1:, 0], strict=True):
+        way = np.arange(1, land - leave + 1)
+        edge = np.minimum(way, way[::-1])
+        full = max(min(CLEARING_S * rate_hz, 0.5 * (land - leave + 1)), 1.0)
+        share = smootherstep(edge / full)
+        short = CLEARANCE_M * share - above_m[leave:land]
+        blunt = 0.2 * CLEARANCE_M * share + 1e-6  # no kink where the swing's own height takes over
+        more[leave:land] = blunt * np.logaddexp(0.0, short / blunt)
+    return more
 
 
 def _evened(value: FloatArray, plants: IntArray, rate_hz: float) -> FloatArray:

@@ -63,7 +63,9 @@ def _stepping(
     """Return when feet stand once the steps that standing needs are taken, and their lift."""
     if not legs:
         return stands, np.zeros(stands.shape)
-    place = np.stack([ankle[:, [0, 2]] for _, ankle in raw], axis=1)
+    # A foot rolls over its ball without getting anywhere.
+    balls = [p + rotate(q, leg.ball_m) for leg, (q, p) in zip(legs, raw, strict=True)]
+    place = np.stack([ball[:, [0, 2]] for ball in balls], axis=1)
     yaw = np.stack([yaw_of(leg, q) for leg, (q, _) in zip(legs, raw, strict=True)], axis=1)
     return stepping(place, yaw, stands, np.array([leg.left_m for leg in legs]), rate_hz)
 

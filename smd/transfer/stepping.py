@@ -63,17 +63,19 @@ def stepping(
     shifting = np.linalg.norm(np.gradient(place_m, axis=0), axis=-1) * rate_hz
     turning = np.abs(np.gradient(yaw_rad, axis=0)) * rate_hz
     speed = shifting + TURN_COUNTS_M * turning
-    restless: BoolArray = speed.max(axis=1) > RESTLESS_M_S
-    all_stand: BoolArray = stands.all(axis=1)
+    restless = np.asarray(speed.max(axis=1) > RESTLESS_M_S)
+    all_stand = np.asarray(stands.all(axis=1))
     for first, last in _runs(all_stand):
         for start, end in _runs(restless[first:last]) + first:
             # Where the feet get going from or come to standing, the clip's own steps do it.
             if start == first or end == last:
                 continue
-            if speed[start:end].sum(axis=0).max() / rate_hz < FAR_M:
+            far_m = speed[start:end].sum(axis=0) / rate_hz
+            if far_m.max() < FAR_M:
                 continue
             turn = float((yaw_rad[end - 1] - yaw_rad[start]).mean())
             order = np.argsort(-left_m * np.sign(turn), kind="stable")
+            order = order[far_m[order] > 0.5 * FAR_M]
             rounds = max(int(np.ceil(abs(turn) / FAR_TURN_RAD)), 1)
             steps = np.tile(order, rounds)
             edges = _widened(start, end, first + 1, last - 1, len(steps) * STEP_S * rate_hz)

@@ -56,7 +56,10 @@ def along_path(
     if gait is None:
         raise ValueError(f"{piece.clip.name}: expected a cyclic clip that travels")
     time_s = knots(start_s, end_s)
-    clock_s = _settled(path, time_s, from_gait=from_gait, into_gait=into_gait)
+    settling_s = _settling_s(path, time_s) if gait.passings else _take_off_s(time_s)
+    clock_s = eased_clock(
+        time_s, 0.0 if from_gait else settling_s[0], 0.0 if into_gait else settling_s[1]
+    )
     over_ground = path.at(clock_s)
     steps = np.linalg.norm(np.diff(over_ground, axis=0), axis=-1)
     way_m = np.concatenate([[0.0], np.cumsum(steps)])
@@ -71,7 +74,7 @@ def along_path(
     else:
         share = even
         cycles = float(max(round((end_s - start_s) / gait.duration_s), 1))
-        presence = _flight_presence(time_s, from_flight=from_gait, into_flight=into_gait)
+        presence = _ends(time_s, settling_s[0], from_same=from_gait, into_same=into_gait)
         first = 0.0 if phase is None else phase
     heading = path.heading_at(clock_s)
     return Move(
@@ -113,29 +116,26 @@ def leap(piece: Piece, path: GroundPath, start_s: float, end_s: float, at: Place
     )
 
 
-def _settled(
-    path: GroundPath, time_s: FloatArray, *, from_gait: bool, into_gait: bool
-) -> FloatArray:
-    """Return the times at which the path is gone: at rest at either end that borders on rest.
+def _settling_s(path: GroundPath, time_s: FloatArray) -> tuple[float, float]:
+    """Return how long a gait takes to get going and to come to rest, beyond what the prop does.
 
     A phrase may begin or end while the prop is moving, since recognition cuts where the tokens
     change. The character passes the same places, a little faster in between.
     """
     duration_s = time_s[-1] - time_s[0]
-    quarter_s = 0.25 * duration_s
-    step_s = min(1.0 / 60.0, quarter_s)
+    step_s = min(1.0 / 60.0, 0.25 * duration_s)
     ends = np.array([time_s[0], time_s[0] + step_s, time_s[-1] - step_s, time_s[-1]])
     places = path.at(ends)
-    speeds = np.linalg.norm(places[[1, 3]] - places[[0, 2]], axis=-1) / step_s
-    middle = path.at(time_s)
-    mean = np.linalg.norm(np.diff(middle, axis=0), axis=-1).sum() / duration_s
-    relative = np.minimum(speeds / max(mean, 1e-9), 1.0)
-    settling_s = min(SETTLING_S, quarter_s) * relative
-    return eased_clock(
-        time_s,
-        0.0 if from_gait else float(settling_s[0]),
-        0.0 if into_gait else float(settling_s[1]),
-    )
+    first, last = np.linalg.norm(places[[1, 3]] - places[[0, 2]], axis=-1) / step_s
+    mean = np.linalg.norm(np.diff(path.at(time_s), axis=0), axis=-1).sum() / duration_s
+    most_s = min(SETTLING_S, 0.25 * duration_s)
+    return tuple(most_s * float(min(speed / max(mean, 1e-9), 1.0)) for speed in (first, last))
+
+
+def _take_off_s(time_s: FloatArray) -> tuple[float, float]:
+    """Return how long a flight takes to leave the ground and to come back to it."""
+    over_s = min(TAKE_OFF_S, (time_s[-1] - time_s[0]) / 3.0)
+    return over_s, over_s
 
 
 def _speed_presence(
@@ -157,9 +157,3 @@ def _ends(time_s: FloatArray, over_s: float, *, from_same: bool, into_same: bool
     rise = np.ones_like(time_s) if from_same else smootherstep((time_s - time_s[0]) / over_s)
     fall = np.ones_like(time_s) if into_same else smootherstep((time_s[-1] - time_s) / over_s)
     return rise * fall
-
-
-def _flight_presence(time_s: FloatArray, *, from_flight: bool, into_flight: bool) -> FloatArray:
-    """Return how much of a flight is seen: it leaves the ground at the start and comes back."""
-    over_s = min(TAKE_OFF_S, (time_s[-1] - time_s[0]) / 3.0)
-    return _ends(time_s, over_s, from_same=from_flight, into_same=into_flight)
