@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 from smd.errors import ExportError
+from smd.files import replacing
 
 ROWS = 12
 """Most rows of one filmstrip; a longer performance shows its first ones and says so."""
@@ -37,7 +38,7 @@ def write_filmstrip(usd_path: Path | str, png_path: Path | str, *, rows: int = R
     png_path
         The picture.
     rows
-        Most rows to draw.
+        Most rows to draw, at least 1.
 
     Raises
     ------
@@ -45,14 +46,22 @@ def write_filmstrip(usd_path: Path | str, png_path: Path | str, *, rows: int = R
         If the file holds no character, the picture cannot be written, or this machine cannot
         render; the message has the reason.
     """
-    command = [sys.executable, "-m", "exporters.strip", str(usd_path), str(png_path), str(rows)]
-    # The child finds the packages where this process did, whatever its working folder.
+    png_path = Path(png_path)
+    if rows < 1:
+        raise ExportError(f"rows: expected at least 1, got {rows}")
+    with replacing(png_path) as temporary:
+        _draw_elsewhere(Path(usd_path), temporary, png_path, rows)
+
+
+def _draw_elsewhere(usd_path: Path, temporary: Path, png_path: Path, rows: int) -> None:
+    """Draw into ``temporary`` in a process of its own; errors name ``png_path``."""
+    # -P: whatever lies in the working folder is not ours to run.
+    command = [sys.executable, "-P", "-m", "exporters.strip", str(usd_path), str(temporary)]
     paths = os.pathsep.join(path or str(Path.cwd()) for path in sys.path)
-    environment = {**os.environ, "PYTHONPATH": paths}
     try:
         result = subprocess.run(
-            command,
-            env=environment,
+            [*command, str(rows)],
+            env={**os.environ, "PYTHONPATH": paths},
             capture_output=True,
             text=True,
             errors="replace",

@@ -34,8 +34,8 @@ _LANES = {"trajectory": 2.0, "moves": 0.42, "turns": 0.42, "phrase": 0.55, "effo
 """Height of each lane in inches, from top to bottom."""
 
 _SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62, 0.2, 0.6
-_AXIS_COLORS = {"x": "#c8385a", "y": "#2a9d55", "z": "#1f77b4"}
-_EFFORT_COLORS = {"time": "#e8710a", "weight": "#4b5fc8", "space": "#00939b", "flow": "#b8860b"}
+_AXIS_COLORS = {"x": "#d6455d", "y": "#37a562", "z": "#3b6fd4"}
+_EFFORT_COLORS = {"time": "#475063", "weight": "#a5afbd", "space": "#7d6748", "flow": "#cdb88f"}
 _INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
 
 
@@ -116,8 +116,8 @@ def _drawing(doodle: Doodle, motion: RigidMotion) -> np.ndarray:
 
 def _sheet(count: int, first_s: float, last_s: float) -> tuple[Figure, list[dict[str, Any]]]:
     """Return an empty figure with the lanes of each device, all on one time axis."""
-    seconds = max(last_s - first_s, 0.1)
-    width = float(np.clip(_INCHES_PER_S * seconds, _LEAST_INCHES, _MOST_INCHES))
+    last_s = max(last_s, first_s + 0.1)
+    width = float(np.clip(_INCHES_PER_S * (last_s - first_s), _LEAST_INCHES, _MOST_INCHES))
     block = sum(_LANES.values()) + _BETWEEN_INCHES
     height = _HEAD_INCHES + max(count, 1) * block + _FOOT_INCHES
     figure = Figure(figsize=(width, height), facecolor="white")

@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from exporters import timeline
+from exporters.palette import action_colors
+from exporters.timeline import write_timeline
+from smd.doodle import Doodle, Dropout, Recording
+from smd.errors import ExportError
+from smd.recognition.tokens import Token, TokenRun
+from smd.score import Part, Score
+
+
+@pytest.fixture(scope="module")
+def recording(performance) -> Recording:
+    doodles = tuple(doodle for actor in performance.actors for doodle in actor.doodles)
+    lost = Dropout("right-hand", 10.8, 11.2, "gap", bridged=False)
+    return Recording(doodles, "made up", (lost,))
+
+
+@pytest.fixture(scope="module")
+def picture(recording, performance, tmp_path_factory) -> np.ndarray:
+    path = tmp_path_factory.mktemp("timeline") / "t.png"
+    write_timeline(recording, performance.score, path)
+    return np.asarray(Image.open(path).convert("RGB")).astype(int)
+
+
+def seconds(column: float, picture: np.ndarray) -> float:
+    """Return the time at a column of the picture, whose lanes go from 10 to 12 s."""
+    left, right = (timeline.DPI * inches for inches in timeline._SIDES_INCHES)
+    return 10.0 + 2.0 * (column - left) / (picture.shape[1] - left - right)
+
+
+def test_a_phrase_stands_over_its_time_in_its_colour(picture, performance):
+    for action, (start_s, end_s) in {"walk": (10.2, 10.9), "punch": (11.2, 11.8)}.items():
+        rgb = np.round(255 * np.array(action_colors(performance.score)[action]))
+        rows, columns = np.nonzero(np.abs(picture - rgb).max(axis=-1) <= 1)
+        # Of the two devices, the first's lanes have no dropout over them.
+        columns = columns[rows < picture.shape[0] / 2]
+        assert seconds(columns.min(), picture) == pytest.approx(start_s, abs=0.01)
+        assert seconds(columns.max() + 1, picture) == pytest.approx(end_s, abs=0.01)
+
+
+def test_a_dropout_is_marked_over_its_time_in_its_device_alone(
+    recording, performance, picture, tmp_path
+):
+    write_timeline(replace(recording, dropouts=()), performance.score, tmp_path / "t.png")
+    without = np.asarray(Image.open(tmp_path / "t.png").convert("RGB")).astype(int)
+    rows, columns = np.nonzero((picture != without).any(axis=-1))
+    assert rows.min() > 0.5 * picture.shape[0]
+    assert seconds(columns.min(), picture) == pytest.approx(10.8, abs=0.01)
+    assert seconds(columns.max() + 1, picture) == pytest.approx(11.2, abs=0.01)
+
+
+def test_the_same_input_gives_the_same_bytes(recording, performance, tmp_path):
+    for name in ("a.png", "b.png"):
+        write_timeline(recording, performance.score, tmp_path / name)
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+def test_equal_halves_of_neighbouring_tokens_are_one_block():
+    ahead, up, left = (0, 0, 1), (0, 1, 0), (1, 0, 0)
+    tokens = [Token(), Token(ahead), Token(ahead, left), Token(up, left), Token()]
+    runs = [TokenRun(token, i, i + 1, float(i), i + 1.0) for i, token in enumerate(tokens)]
+    moves = timeline._token_blocks([runs], lambda token: token.translation, "T")
+    turns = timeline._token_blocks([runs], lambda token: token.rotation, "R")
+    assert [(b.start_s, b.end_s, b.text) for b in moves] == [(1, 3, "T_Z"), (3, 4, "T_Y")]
+    assert [(b.start_s, b.end_s, b.text) for b in turns] == [(2, 4, "R_X")]
+
+
+def test_a_block_never_reaches_over_a_loss_of_tracking():
+    runs = [TokenRun(Token((0, 0, 1)), 0, 1, 0.0, 1.0)]
+    later = [TokenRun(Token((0, 0, 1)), 0, 1, 5.0, 6.0)]
+    blocks = timeline._token_blocks([runs, later], lambda token: token.translation, "T")
+    assert [(b.start_s, b.end_s) for b in blocks] == [(0.0, 1.0), (5.0, 6.0)]
+
+
+def test_a_recording_of_one_sample_and_no_phrase_is_drawn_too(tmp_path):
+    still = Doodle(np.array([1.0]), np.zeros((1, 3)), np.array([[0.0, 0.0, 0.0, 1.0]]))
+    write_timeline(Recording((still,)), Score((Part("prop"),)), tmp_path / "t.png")
+    assert (tmp_path / "t.png").stat().st_size > 1000
+
+
+def test_an_hour_is_not_wider_than_a_picture_may_be(tmp_path):
+    time_s = np.linspace(0.0, 3600.0, 40)
+    slow = Doodle(time_s, np.zeros((40, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (40, 1)))
+    figure, _ = timeline._sheet(1, 0.0, float(slow.duration_s))
+    assert figure.get_figwidth() * timeline.DPI < 2**16 / 2
+
+
+def test_a_missing_folder_is_named(recording, performance, tmp_path):
+    with pytest.raises(ExportError, match="nowhere"):
+        write_timeline(recording, performance.score, tmp_path / "nowhere" / "t.png")
+
+
+def test_devices_that_the_score_leaves_out_are_left_out(recording, performance, tmp_path):
+    one = replace(performance.score, performers=performance.score.performers[:1])
+    write_timeline(recording, one, tmp_path / "one.png")
+    write_timeline(recording, performance.score, tmp_path / "two.png")
+    with Image.open(tmp_path / "one.png") as a, Image.open(tmp_path / "two.png") as b:
+        assert a.height < 0.65 * b.height
