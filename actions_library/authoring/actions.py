@@ -32,9 +32,9 @@ _TURNING_WALK = ("T_Z/R_Y", "T_Z/R_N_Y")
 
 def _rolling(sign: str) -> tuple[str, ...]:
     """Return the tokens of a roll about the front axis, gliding ahead; ``_N`` is to the right."""
-    turns = tuple(f"T_Z/R{side}{sign}_Z" for side in ("", "_X", "_N_X", "_Y", "_N_Y"))
-    moves = ("T_X_Z", "T_N_X_Z", "T_Y_Z", "T_N_Y_Z")
-    return (*turns, *(f"{move}/R{sign}_Z" for move in moves))
+    moves = ("T_Z", "T_X_Z", "T_N_X_Z", "T_Y_Z", "T_N_Y_Z")
+    turns = tuple(f"R{side}{sign}_Z" for side in ("", "_X", "_N_X", "_Y", "_N_Y"))
+    return tuple(f"{move}/{turn}" for move in moves for turn in turns)
 
 
 def _turning(sign: str) -> str:
@@ -59,8 +59,13 @@ def _pitching(sign: str, carried: str) -> str:
     return _either(*(f"R{sign}_X{side}" for side in sides), f"{carried}/R{sign}_X")
 
 
-# A hand may lift the prop as it sets out, and set it down as it arrives.
-_WALK = f"T_Y_Z* {_either(*_AHEAD, *_TURNING_WALK)} T_N_Y_Z*"
+# Level, or uphill until it is set down, or lifted off and then downhill; never to and fro.
+_WALK = "|".join(
+    (
+        f"{_either('T_Y_Z', *_AHEAD, *_TURNING_WALK)} T_N_Y_Z*",
+        f"T_Y_Z* {_either('T_N_Y_Z', *_AHEAD, *_TURNING_WALK)}",
+    )
+)
 _LEVEL = _maybe(*_AHEAD)
 _VALLEY = "|".join(  # between two hops; straight down and straight up again would be two jumps
     (

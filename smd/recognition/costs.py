@@ -28,8 +28,8 @@ class Costs:
         are two when it is longer than ``action / still_per_s``; a bow may be held while it costs
         less than its two strokes left unexplained.
     faint, faint_beside : movement below which a run is hardly a stroke of its own: an amount, or
-        a share of the larger run beside it if that is less. Taking such a run for a token of a
-        pattern costs up to one edit, as if the token were missing.
+        a share of the largest of the two runs on either side if that is less. Taking such a run
+        for a token of a pattern costs up to one edit, as if the token were missing.
     sharpness : of the confidence, per edit.
     """
 
@@ -77,7 +77,8 @@ def run_costs(runs: Sequence[TokenRun], costs: Costs) -> RunCosts:
     is_still = np.array([run.token == STILL for run in runs], dtype=bool)
     duration_s = np.array([run.end_s - run.start_s for run in runs])
     movement = np.where(is_still, 0.0, np.minimum(extent / costs.worth, 1.0))
-    beside = np.maximum(np.append(extent[1:], 0.0), np.append(0.0, extent[:-1]))
+    padded = np.pad(extent, 2)
+    beside = np.max([padded[i : i + len(runs)] for i in (0, 1, 3, 4)], axis=0)
     enough = np.maximum(np.minimum(costs.faint, costs.faint_beside * beside), 1e-12)
     return RunCosts(
         skip=np.where(is_still, costs.still_per_s * duration_s, movement),

@@ -31,6 +31,9 @@ class Thresholds:
         that turns by a radian. Alone, it is 0.039 m/s for a figurine of 0.175 m, or 0.22 rad/s.
     moving_on : movement that has begun goes on down to this share of that speed; lower, and the
         drift of a resting hand would count.
+    onset : a movement begins where its speed has risen to this share of its peak, and ends alike,
+        as far as it rises and falls without a break; so a slow gesture is not cut shorter than a
+        quick one.
     turning_rad_s : turning begins here and goes on down to epsilon. A hand that walks a figurine
         wobbles faster than epsilon, so that turning could not begin there.
     lever_heights : distance from the prop's centre, in figure heights, at which people take the
@@ -44,6 +47,7 @@ class Thresholds:
 
     still: float = 0.05
     moving_on: float = 0.5
+    onset: float = 0.05
     turning_rad_s: float = 0.8
     lever_heights: float = 0.5
     swing_m: float = 0.7
@@ -98,12 +102,12 @@ def tokenize(
     meant_turning = _shortened(turning, speed_m_s / thresholds.swing_m)
     epsilon = np.sqrt(thresholds.still)
     turning_levels = (thresholds.turning_rad_s, min(epsilon, thresholds.turning_rad_s))
-    rotation = _bins(meant_turning, turning_levels, on, thresholds.stay_rad)
+    rotation = _bins(meant_turning, turning_levels, on, thresholds)
     lever_m = thresholds.lever_heights * figure_height_m
     meant_velocity = _beyond_lever(velocity, turning * (rotation != NONE)[:, None], lever_m)
     moving_m_s = epsilon * figure_height_m
     moving_levels = (moving_m_s, thresholds.moving_on * moving_m_s)
-    translation = _bins(meant_velocity, moving_levels, on, thresholds.stay_rad)
+    translation = _bins(meant_velocity, moving_levels, on, thresholds)
 
     samples_per_s = (len(motion) - 1) / max(motion.time_s[-1] - motion.time_s[0], 1e-9)
     # + 1e-9: 2/60 s at 60 Hz is 1.999…96 samples, and a run must be longer than that.
@@ -129,18 +133,18 @@ def _beyond_lever(velocity: FloatArray, turning: FloatArray, lever_m: float) -> 
 
 
 def _bins(
-    vector: FloatArray, levels: tuple[float, float], on: BoolArray, stay_rad: float
+    vector: FloatArray, levels: tuple[float, float], on: BoolArray, thresholds: Thresholds
 ) -> IntArray:
     """Return each vector's bin; it begins above the first level and ends below the second."""
-    length = np.linalg.norm(vector, axis=-1)
-    strong = on & (length > levels[0])
-    held = _joined_to(strong, on & (length > levels[1]))
+    length = np.where(on, np.linalg.norm(vector, axis=-1), 0.0)
+    strong = length > levels[0]
+    held = _from_onset(length, _joined_to(strong, length > levels[1]), thresholds.onset)
     source = _nearest_in_run(strong, held)
     bins = np.full(len(vector), NONE)
     where = np.flatnonzero(held)
     if len(where):
         first = np.flatnonzero(np.diff(where, prepend=-2) > 1)
-        bins[where] = _steady_directions(vector[source[where]], first, stay_rad)
+        bins[where] = _steady_directions(vector[source[where]], first, thresholds.stay_rad)
     return bins
 
 
@@ -162,6 +166,25 @@ def _joined_to(strong: BoolArray, weak: BoolArray) -> BoolArray:
     change[first[kept]] += 1
     change[last[kept]] -= 1
     return np.cumsum(change[:-1]) > 0
+
+
+def _from_onset(length: FloatArray, held: BoolArray, onset: float) -> BoolArray:
+    """Return the runs of ``held``, widened while ``length`` falls, to a share of each one's peak.
+
+    A loop over samples, but only over those added.
+    """
+    widened = held.copy()
+    speed = length.tolist()
+    first, last = (edges.tolist() for edges in _edges(held))
+    for i, (begin, end) in enumerate(zip(first, last, strict=True)):
+        floor = onset * max(speed[begin:end])
+        earliest, latest = last[i - 1] if i else 0, [*first, len(speed)][i + 1]
+        while begin > earliest and floor < speed[begin - 1] < speed[begin]:
+            begin -= 1
+        while end < latest and floor < speed[end] < speed[end - 1]:
+            end += 1
+        widened[begin:end] = True
+    return widened
 
 
 def _nearest_in_run(strong: BoolArray, held: BoolArray) -> IntArray:
