@@ -144,8 +144,8 @@ class Stage:
         up = np.array([0.0, np.linalg.norm(back), 0.0])
         self._plotter.remove_all_lights()
         for direction, color, intensity in (
-            (0.7 * back - 0.7 * right + 0.9 * up, (1.0, 0.98, 0.94), 0.85),
-            (0.8 * back + 0.9 * right + 0.2 * up, (0.92, 0.95, 1.0), 0.42),
+            (0.9 * back - 0.7 * right + 0.7 * up, (1.0, 0.98, 0.94), 0.82),
+            (0.8 * back + 0.9 * right + 0.2 * up, (0.92, 0.95, 1.0), 0.5),
             (-1.0 * back + 0.4 * right + 0.9 * up, (1.0, 1.0, 1.0), 0.35),
         ):
             self._plotter.add_light(

@@ -27,7 +27,7 @@ WIDE_M = 4.0
 """From this width of a picture on, the grid has a line each metre, else each half."""
 
 WINDOW_S = 1.5
-"""Length of a row where there are no phrases."""
+"""Length of a row where there are no phrases; longer where there would be too many rows."""
 
 _PATH_SAMPLES = 48
 _RAISED_RAD = np.radians(14.0)
@@ -56,7 +56,7 @@ class Row:
 def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
     """Draw the filmstrip; see `exporters.filmstrip.write_filmstrip`."""
     scene = read_scene(usd_path)
-    every = list(_rows(scene))
+    every = list(_rows(scene, most_rows))
     rows = every[:most_rows]
     stage = Stage(CELL_PX, [(figure.triangles, figure.point_rgb) for figure in scene.figures])
     width = LABEL_PX + COLUMNS * (CELL_PX[0] + GAP_PX) + MARGIN_PX
@@ -78,8 +78,8 @@ def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
     sheet.save(png_path, format="PNG")
 
 
-def _rows(scene: Scene) -> Iterator[Row]:
-    """Yield the phrases in time order, or time windows of every figure where there are none."""
+def _rows(scene: Scene, most_rows: int) -> Iterator[Row]:
+    """Yield the phrases in time order, or, where there are none, windows of all the time."""
     names = [figure.name for figure in scene.figures]
     colors = action_colors(scene.score) if scene.score else {}
     phrases = [
@@ -92,7 +92,8 @@ def _rows(scene: Scene) -> Iterator[Row]:
     if phrases:
         yield from sorted(phrases, key=lambda row: (row.start_s, row.figure))
         return
-    count = max(1, int(np.ceil((scene.last_s - scene.first_s) / WINDOW_S)))
+    wanted = int(np.ceil((scene.last_s - scene.first_s) / WINDOW_S))
+    count = max(1, min(wanted, most_rows // len(names)))
     edges = np.linspace(scene.first_s, scene.last_s, count + 1)
     for start_s, end_s in pairwise(edges.tolist()):
         for index in range(len(names)):

@@ -110,7 +110,7 @@ def _motions(doodles: Iterable[Doodle]) -> Iterable[tuple[Doodle, RigidMotion]]:
 def _drawing(doodle: Doodle, motion: RigidMotion) -> np.ndarray:
     """Return whether the user meant to draw at each sample of the smoothed motion."""
     assert doodle.drawing is not None  # the constructor fills it
-    nearest = np.searchsorted(doodle.time_s, motion.time_s, side="right") - 1
+    nearest = np.searchsorted(doodle.time_s, motion.time_s + 1e-9, side="right") - 1
     return doodle.drawing[np.clip(nearest, 0, len(doodle) - 1)]
 
 

@@ -231,3 +231,21 @@ def test_a_missing_folder_is_named(tmp_path):
 def test_a_file_is_not_a_library(library):
     with pytest.raises(LibraryError, match=r"library\.json"):
         load_library(library.folder / "library.json")
+
+
+def test_the_shipped_library_is_what_the_authoring_makes():
+    from actions_library.authoring.actions import HUMANOID_ACTIONS
+    from actions_library.authoring.clips import humanoid_clips
+
+    shipped = load_library()
+    assert shipped.actions == HUMANOID_ACTIONS
+    made = {clip.name: clip for clip in humanoid_clips(shipped.character.skeleton)}
+    assert list(made) == list(shipped.clips)
+    for name, clip in made.items():
+        stored = shipped.clip(name)
+        assert (stored.rate_hz, stored.cyclic) == (clip.rate_hz, clip.cyclic)
+        assert np.array_equal(stored.stage_end_frames, clip.stage_end_frames)
+        assert np.array_equal(stored.contacts, clip.contacts)
+        # Positions are stored to 6e-8 of a metre; another machine's sines may differ in the last.
+        np.testing.assert_allclose(stored.translation_m, clip.translation_m, atol=1e-5)
+        np.testing.assert_allclose(stored.rotation_xyzw, clip.rotation_xyzw, atol=1e-5)

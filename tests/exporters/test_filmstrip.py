@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -123,9 +124,21 @@ def test_real_characters_are_read(shared_data):
     assert scene.score is None
     height_m = np.ptp(figure.points_m(scene.start_code)[:, 1])
     assert 1.2 < height_m < 2.0
-    rows = list(strip._rows(scene))
+    rows = list(strip._rows(scene, 12))
     assert rows[0].start_s == scene.first_s
     assert rows[-1].end_s == pytest.approx(scene.last_s)
+
+
+def test_windows_cover_all_the_time_in_as_many_rows_as_there_may_be(performance, tmp_path):
+    actors = tuple(replace(a, part=replace(a.part, phrases=())) for a in performance.actors)
+    score = replace(performance.score, performers=tuple(actor.part for actor in actors))
+    write_usd(replace(performance, actors=actors, score=score), tmp_path / "a.usdc")
+    scene = read_scene(tmp_path / "a.usdc")
+    for most in (1, 2, 3, 12):
+        rows = list(strip._rows(scene, most))
+        assert len(rows) <= max(most, 2)  # at least one of each figure
+        assert (rows[0].start_s, rows[-1].end_s) == (10.0, 12.0)
+        assert {row.figure for row in rows} == {0, 1}
 
 
 @pytest.mark.parametrize(
