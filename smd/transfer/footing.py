@@ -91,7 +91,9 @@ def footing(
 
     on_ball = 1.0 / (1.0 + np.exp(np.clip((ball_up - heel_up) / ROLLING_M, -50.0, 50.0)))
     slide = _slide(ankle_m + heel, ankle_m + ball, on_ball)
-    weight = 1.0 / (STILL_M_S**2 + (rate_hz * np.linalg.norm(slide, axis=-1)) ** 2)
+    speed = rate_hz * np.linalg.norm(slide, axis=-1)
+    speed[1:] = np.maximum(speed[1:], speed[:-1])  # of both steps, before the frame and after
+    weight = 1.0 / (STILL_M_S**2 + speed**2)
     yaw = yaw_of(leg, foot_xyzw)
     turn = _evened(_about_mean(-yaw[:, None], weight, plants), plants, rate_hz)[:, 0]
 

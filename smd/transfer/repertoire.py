@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,10 +73,15 @@ def repertoire(library: Library, actions: Iterable[str]) -> Repertoire:
     names = sorted({IDLE, *actions})
     clips = [library.clip(name) for name in names]
     legs = legs_of(library.character.skeleton, sorted({f for clip in clips for f in feet_of(clip)}))
-    pieces = {}
-    for name, clip in zip(names, clips, strict=True):
-        travels = library.action(name).travels
-        stands = standing(clip, legs)
-        gait = gait_of(clip, stands) if travels and clip.cyclic else None
-        pieces[name] = Piece(clip, travels, ground_root(clip), stands, gait)
+    pieces = {
+        name: piece_of(clip, travels=library.action(name).travels, legs=legs)
+        for name, clip in zip(names, clips, strict=True)
+    }
     return Repertoire(pieces, legs)
+
+
+def piece_of(clip: Clip, *, travels: bool, legs: Sequence[Leg]) -> Piece:
+    """Study one clip."""
+    stands = standing(clip, legs)
+    gait = gait_of(clip, stands) if travels and clip.cyclic else None
+    return Piece(clip, travels, ground_root(clip), stands, gait)

@@ -102,7 +102,10 @@ def leap(piece: Piece, path: GroundPath, start_s: float, end_s: float, at: Place
     way_m = np.concatenate(
         [[0.0], np.cumsum(np.linalg.norm(np.diff(over_ground, axis=0), axis=-1))]
     )
-    clock_s = np.interp(share * way_m[-1], way_m, time_s) if way_m[-1] > NOWHERE_M else time_s
+    if way_m[-1] > NOWHERE_M:
+        clock_s = np.interp(share * way_m[-1], way_m, time_s)
+    else:
+        clock_s = start_s + share * (end_s - start_s)
     first, last = path.heading_at(start_s), path.heading_at(end_s)
     return Move(
         piece=piece,
