@@ -26,7 +26,7 @@ from smd.geometry.rotations import (
     sign_continuous,
 )
 
-TOE_LENGTH_M = 0.070
+TOE_LENGTH_M = 0.088
 FOOT_HALF_WIDTH_M = 0.040
 SLOW_M_S = 0.10
 SIDES = ("left", "right")

@@ -29,7 +29,7 @@ RATE_HZ = 60.0
 LEG_SOFTNESS = 0.004
 """Last part of a leg's reach that softens; short, since a foot that falls short slides."""
 
-HEEL_BEHIND_ANKLE_M = 0.055
+HEEL_BEHIND_ANKLE_M = 0.078
 
 _SPINE_SHARE = {"spine": 0.30, "chest": 0.65, "upper_chest": 1.0}
 _NECK_SHARE = 0.45

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from actions_library.authoring.curves import eased
@@ -11,8 +9,9 @@ from actions_library.authoring.feet import Plant
 from actions_library.authoring.keys import Arm, Key, Place, Turn
 from actions_library.authoring.posing import RATE_HZ, GroundPath
 
-LEFT_STANCE = Plant(-9.0, 9.0, left=0.105, ahead=0.025, yaw=9.0)
-RIGHT_STANCE = Plant(-9.0, 9.0, left=-0.100, ahead=-0.020, yaw=-12.0)
+_ALWAYS_S = 1e3
+LEFT_STANCE = Plant(-_ALWAYS_S, _ALWAYS_S, left=0.1025, ahead=0.0225, yaw=9.0)
+RIGHT_STANCE = Plant(-_ALWAYS_S, _ALWAYS_S, left=-0.1025, ahead=-0.0225, yaw=-12.0)
 
 STAND = Key(
     0.0,
@@ -50,13 +49,3 @@ def steady_travel(duration_s: float, *, left: float = 0.0, ahead: float = 0.0) -
 def frame_count(duration_s: float) -> int:
     """Return how many frames a duration takes, both ends included."""
     return round(duration_s * RATE_HZ) + 1
-
-
-def stood(plant: Plant, until: float) -> Plant:
-    """Return the stance up to the time the foot leaves it."""
-    return replace(plant, leave=until)
-
-
-def stands_again(plant: Plant, since: float) -> Plant:
-    """Return the stance from the time the foot comes back to it."""
-    return replace(plant, land=since)
