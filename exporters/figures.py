@@ -33,17 +33,16 @@ class Figure:
     triangles : (t, 3) int64 over the points of all its meshes.
     point_rgb : (p, 3) sRGB, each in [0, 1].
     joint_count : of its skeleton.
-    prop : the prim that goes where its prop went, where there is one.
     """
 
     name: str
     triangles: NDArray[np.int64]
     point_rgb: FloatArray
     joint_count: int
-    prop: Usd.Prim | None
     _stage: Usd.Stage
     _skeleton: Any
     _targets: tuple[Any, ...]
+    _prop: Any
 
     def points_m(self, time_code: float) -> FloatArray:
         """Return where the points are, ``(p, 3)``, metres, Y up."""
@@ -71,6 +70,13 @@ class Figure:
         world = self._world(time_code)[:3, :3]
         front_of_bind = np.array([0.0, 0.0, 1.0]) @ np.linalg.inv(world)
         return np.asarray((front_of_bind @ turns).mean(axis=0) @ world)
+
+    def prop_m(self, time_code: float) -> FloatArray | None:
+        """Return where its prop is, ``(3,)``, metres, Y up; None where the file has none."""
+        if not self._prop:
+            return None
+        world = np.array(self._prop.ComputeLocalToWorldTransform(time_code))
+        return np.asarray((world @ _to_our_axes(self._stage))[3, :3])
 
     def _world(self, time_code: float) -> FloatArray:
         """Return the transform from the skeleton's space to metres, Y up, for row vectors."""
@@ -165,10 +171,10 @@ def _figure(stage: Usd.Stage, root: Usd.Prim, skeleton: Any, targets: list[Any])
         triangles=np.concatenate(triangles),
         point_rgb=np.concatenate(colors),
         joint_count=len(skeleton.GetJointOrder()),
-        prop=prop or None,
         _stage=stage,
         _skeleton=skeleton,
         _targets=tuple(targets),
+        _prop=UsdGeom.Xformable(prop),
     )
 
 

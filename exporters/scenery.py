@@ -99,6 +99,8 @@ def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performa
     # Each face has its own corners, so that the dart keeps its edges.
     faces = np.arange(_DART_FACES.size).reshape(-1, 3)
     mesh = define_mesh(stage, f"{path}/Dart", _DART_M[_DART_FACES].reshape(-1, 3), faces, color)
+    # A guide: it often is inside the character, so viewers show it only when asked to.
+    mesh.CreatePurposeAttr(UsdGeom.Tokens.guide)
     material = define_material(stage, f"{path}/Materials/Dart", color)
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
 

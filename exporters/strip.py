@@ -109,12 +109,14 @@ def _draw_row(
     codes = [scene.time_code(time_s) for time_s in times_s.tolist()]
     bodies = [figure.points_m(code) for code in codes]
     path = _body_path(scene, figure, row)
+    drawn = _drawn_path(scene, figure, row)
+    drawn = path if drawn is None else drawn
     viewpoint = _viewpoint(figure, codes, np.concatenate([*bodies, on_ground(path)]))
     grid_m = 0.5 if viewpoint.width_m < WIDE_M else 1.0
     stage.look_from(viewpoint, grid_m)
     pictures = []
     for column, (time_s, body) in enumerate(zip(times_s.tolist(), bodies, strict=True)):
-        stage.draw_traces(_traces(path, column / (COLUMNS - 1), row.rgb))
+        stage.draw_traces(_traces(path, drawn, column / (COLUMNS - 1), row.rgb))
         pictures.append((time_s, stage.picture({row.figure: body})))
     travel_m = float(np.linalg.norm(np.diff(path[:, [0, 2]], axis=0), axis=1).sum())
     lines = [
@@ -154,14 +156,20 @@ def _viewpoint(figure: Figure, codes: list[float], points: FloatArray) -> Viewpo
     return best
 
 
-def _traces(path: FloatArray, done: float, rgb: RGB) -> list[Trace]:
-    """Return the whole path on the ground, pale, and the part gone so far, in full colour."""
-    ground = on_ground(path)
+def _drawn_path(scene: Scene, figure: Figure, row: Row) -> FloatArray | None:
+    """Return where the prop goes, ``(n, 3)``; None where the file has no prop."""
+    times_s = np.linspace(row.start_s, row.end_s, _PATH_SAMPLES).tolist()
+    places = [figure.prop_m(scene.time_code(t)) for t in times_s]
+    return None if places[0] is None else np.array(places)
+
+
+def _traces(path: FloatArray, drawn: FloatArray, done: float, rgb: RGB) -> list[Trace]:
+    """Return what was drawn, pale, and the body's path so far, in full colour, on the ground."""
     pale = tuple(0.45 * c + 0.55 for c in rgb)
-    traces = [Trace(ground, (pale[0], pale[1], pale[2]), 2.0)]
+    traces = [Trace(on_ground(drawn), (pale[0], pale[1], pale[2]), 2.0)]
     gone = round(done * (len(path) - 1)) + 1
     if gone > 1:
-        raised = ground[:gone] + np.array([0.0, 0.004, 0.0])
+        raised = on_ground(path)[:gone] + np.array([0.0, 0.004, 0.0])
         traces.append(Trace(raised, rgb, 3.5))
     return traces
 
