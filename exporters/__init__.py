@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,12 @@ from smd.errors import ExportError
 if TYPE_CHECKING:
     from smd.transfer.performance import Performance
 
-SUFFIXES = (".usda", ".usdc", ".usdz")
-"""Of the files that `write` makes."""
+WRITERS = {
+    ".usda": "exporters.usd:write_usd",
+    ".usdc": "exporters.usd:write_usd",
+    ".usdz": "exporters.usd:write_usd",
+}
+"""By suffix, the function that writes such a file; its module is imported when it is needed."""
 
 
 def write(performance: Performance, path: Path | str) -> None:
@@ -20,16 +25,16 @@ def write(performance: Performance, path: Path | str) -> None:
     Raises
     ------
     ExportError
-        If the suffix is none of `SUFFIXES`, or the file cannot be written.
+        If the suffix is none of `WRITERS`, or the file cannot be written.
     """
     path = Path(path)
     require_known_suffix(path)
-    from exporters.usd import write_usd
-
-    write_usd(performance, path)
+    module, function = WRITERS[path.suffix.lower()].split(":")
+    getattr(import_module(module), function)(performance, path)
 
 
 def require_known_suffix(path: Path) -> None:
-    """Raise ExportError unless the file's suffix is one of `SUFFIXES`."""
-    if path.suffix.lower() not in SUFFIXES:
-        raise ExportError(f"{path}: expected a suffix of {', '.join(SUFFIXES)}")
+    """Raise ExportError unless the file's suffix is one of `WRITERS`."""
+    if path.suffix.lower() not in WRITERS:
+        known = ", ".join(WRITERS)
+        raise ExportError(f"{path}: expected a suffix of {known}, found {path.suffix or 'none'}")

@@ -20,7 +20,10 @@ def animate(
     library: reading.LibraryFolder = None,
     fps: reading.FramesPerSecond = 24.0,
 ) -> None:
-    """Act out a Score on its recording's path and timing."""
+    """Act out a Score, perhaps corrected by hand.
+
+    It is played on its recording's path and in its timing.
+    """
     import smd
     from exporters import require_known_suffix
     from smd.errors import ScoreError

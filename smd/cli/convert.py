@@ -32,7 +32,10 @@ def convert(
     quaternion: reading.Quaternion = None,
     mount: reading.Mount = None,
 ) -> None:
-    """Convert recordings to animations: a file in, a file out; a folder in, a folder out."""
+    """Convert recordings to animations.
+
+    A file in, a file out; a folder in, a folder out.
+    """
     import smd
     from exporters import require_known_suffix
 

@@ -19,7 +19,10 @@ def demo(
         Path, typer.Option("-o", "--output", help="The folder to write into; made where missing.")
     ] = Path("smd-demo"),
 ) -> None:
-    """Convert a shipped recording and draw pictures of what was understood."""
+    """Convert a shipped recording, with pictures.
+
+    The pictures show what was understood.
+    """
     import smd
     from smd.cli.parse import table
     from smd.cli.reading import summary

@@ -35,7 +35,10 @@ def parse(
     quaternion: reading.Quaternion = None,
     mount: reading.Mount = None,
 ) -> None:
-    """Recognise the actions and their Effort; print them, or write a Score to correct by hand."""
+    """Recognise actions and their Effort.
+
+    They are printed, or written as a Score that can be corrected by hand.
+    """
     import smd
     from smd.score import score_to_json, write_score
 

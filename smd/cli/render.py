@@ -14,7 +14,10 @@ def render(
     ],
     picture: Annotated[Path, typer.Option("-o", "--output", help="PICTURE.png")],
 ) -> None:
-    """Draw a filmstrip: a row per phrase, eight moments a row."""
+    """Draw a filmstrip of a performance.
+
+    A row per phrase, eight moments a row, without a screen.
+    """
     from exporters.filmstrip import write_filmstrip
 
     write_filmstrip(performance, picture)
