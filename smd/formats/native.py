@@ -56,6 +56,7 @@ def read(text: str, name: str) -> Content:
     """
     lines = text.split("\n")
     head = next(i for i, line in enumerate(lines) if is_row(line))
+    metadata = _metadata(name, lines[:head])
     header = [cell.lower() for cell in cells(lines[head], ",")]
     headerless = _is_number(header[0])
     columns = _positional(name, head, header) if headerless else _named(name, head, header)
@@ -82,7 +83,7 @@ def read(text: str, name: str) -> Content:
         tracks=tuple(tracks),
         frame=SourceFrame.ours(),
         order_is_given=not headerless,
-        metadata=_metadata(name, lines[:head]),
+        metadata=metadata,
     )
 
 

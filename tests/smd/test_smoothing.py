@@ -98,6 +98,13 @@ def test_time_is_even_and_starts_and_ends_with_the_doodle():
     assert len(motion) == int(doodle.duration_s * 60.0) + 1
 
 
+def test_a_last_period_is_not_lost_to_rounding():
+    """0.29 s at 100 Hz is 28.999…96 periods."""
+    t = np.linspace(0.0, 0.29, 30)
+    q = np.tile([0.0, 0.0, 0.0, 1.0], (30, 1))
+    assert len(smooth(Doodle(t, np.zeros((30, 3)), q), rate_hz=100.0)) == 30
+
+
 def test_a_clock_that_counts_from_1970_costs_no_accuracy():
     doodle = random_doodle(np.random.default_rng(1))
     late = Doodle(np.round(doodle.time_s, 4) + 1.7e9, doodle.position_m, doodle.orientation_xyzw)

@@ -85,15 +85,24 @@ def test_strokes_that_stop_and_start_at_once_around_an_exact_pause_are_not_a_los
     assert found(t, along[:, None] * [1.0, 0.0, 0.0], q).dropouts == ()
 
 
+def rest_then_go(n: int, speed_m_s: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A prop that lies still for half a second and then moves at once."""
+    t = np.arange(n) / RATE_HZ
+    along = speed_m_s * np.clip(t - 0.5, 0.0, None)
+    return t, along[:, None] * [1.0, 0.0, 0.0], np.tile([0.0, 0.0, 0.0, 1.0], (n, 1))
+
+
+def test_a_slow_tracker_that_rests_has_lost_nothing():
+    t, position, q = rest_then_go(200, 1.0)
+    held = np.arange(200) // 2 * 2
+    assert found(t, position[held], q).dropouts == ()
+
+
 def test_stamps_that_jitter_do_not_make_jumps():
-    t, position, q = sway(400)
-    position[100:116], q[100:116] = position[100], q[100]  # at rest …
-    position[116:] -= position[116] - position[100] - (position[117] - position[116])
-    q[116:] = q[100]
-    jitter = np.zeros(400)
-    jitter[115::3] = 0.008
-    tracking = found(t + jitter, position, q)
-    assert tracking.dropouts == ()
+    t, position, q = rest_then_go(200, 0.8)
+    moved = np.flatnonzero(position[:, 0])[0]
+    t[moved - 1] += 0.008  # the next stamp comes 3 ms later, its pose a whole step
+    assert found(t, position, q).dropouts == ()
 
 
 def test_a_glimpse_between_two_losses_counts_as_lost():

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -50,3 +52,29 @@ def test_quaternions_rounded_to_two_decimals_are_made_unit(tmp_path):
     path.write_text("".join(f"{i / 30} 0 0 {i} {' '.join(map(str, r))}\n" for i, r in enumerate(q)))
     lengths = np.linalg.norm(read_recording(path).doodles[0].orientation_xyzw, axis=1)
     assert_allclose(lengths, 1.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("wrapped", [False, True])
+def test_aframe_is_degrees_in_order_yxz_of_devices_that_face_minus_z(tmp_path, wrapped):
+    angles = np.array([[10.0, 20.0, 30.0], [90.0, 0.0, 0.0], [0.0, 90.0, 0.0], [-40.0, 170.0, 5.0]])
+    poses = [
+        {
+            "position": {"x": 0.1 * i, "y": 1.0, "z": -0.5},
+            "rotation": dict(zip("xyz", row, strict=True)),
+            "timestamp": 5000.0 + 100.0 * i,
+        }
+        for i, row in enumerate(angles.tolist())
+    ]
+    devices = {"left": {"poses": poses, "events": []}, "right": {"poses": []}, "gamepad": 3}
+    path = tmp_path / "take.json"
+    path.write_text(json.dumps({"avatar": "a", "recording": devices} if wrapped else devices))
+    recording = read_recording(path)
+    assert recording.devices == ("left",)
+    assert float(recording.metadata["clock_zero_s"]) == 5.0
+    doodle = recording.doodles[0]
+    assert_allclose(doodle.time_s, [0.0, 0.1, 0.2, 0.3], atol=1e-12)
+    assert_allclose(doodle.position_m[:, 0], [0.0, 0.1, 0.2, 0.3])
+    device = Rotation.from_euler("YXZ", angles[:, [1, 0, 2]], degrees=True)
+    ours = Rotation.from_quat(doodle.orientation_xyzw)
+    assert_allclose(ours.apply([0, 0, 1]), device.apply([0, 0, -1]), atol=1e-12)
+    assert_allclose(ours.apply([1, 0, 0]), device.apply([-1, 0, 0]), atol=1e-12)
