@@ -14,8 +14,7 @@ from actions_library.authoring.body_wardrobe import Piece, wardrobe
 from actions_library.authoring.body_weights import (
     body_weights,
     strongest,
-    symmetric,
-    weights_of_neighbours,
+    weights_of_skin,
 )
 from actions_library.authoring.humanoid import humanoid_skeleton
 from smd.character.character import Character, Mesh
@@ -55,13 +54,12 @@ def _worn(
 ) -> Mesh:
     """Return a piece's mesh, which moves as the skin below it or with the head."""
     half = half_surface(piece.field, piece.triangle_count // 2)
-    points, triangles, mirror = mirrored(*half)
+    points, triangles, _ = mirrored(*half)
     if piece.on_head:
         weights = np.zeros((len(points), len(skeleton)))
         weights[:, skeleton.index("head")] = 1.0
     else:
-        near = weights_of_neighbours(points, body_points, weights_of_body)
-        weights = symmetric(near, triangles, mirror, skeleton)
+        weights = weights_of_skin(points, body_points, weights_of_body, skeleton)
     return Mesh(piece.name, points, triangles, *strongest(weights), piece.color_rgb)
 
 

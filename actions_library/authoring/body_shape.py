@@ -42,7 +42,7 @@ DOWN: Point = (0.0, -1.0, 0.0)
 SHOULDER, ELBOW, WRIST = (0.175, 1.405, -0.010), (0.375, 1.205, -0.020), (0.553, 1.027, 0.000)
 HIP, KNEE, ANKLE = (0.092, 0.905, 0.000), (0.094, 0.492, 0.008), (0.096, 0.085, -0.020)
 
-SOLE_M = 0.002
+SOLE_M = 0.0015
 """Height of the bare sole: what shoes leave."""
 
 TUCK_M = 0.010

@@ -133,13 +133,22 @@ def _thinned(
     return points[nearest], kept
 
 
+def _half_edges(triangles: IntArray) -> tuple[IntArray, IntArray]:
+    """Return each triangle's directed edges ``(3 t, 2)``, and a key that both directions share."""
+    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    return ends, _edge_keys(ends[:, 0], ends[:, 1], int(triangles.max()) + 1)
+
+
+def _edge_keys(a: IntArray, b: IntArray, point_count: int) -> IntArray:
+    """Return one number for each pair of points, whichever comes first."""
+    return np.minimum(a, b) * point_count + np.maximum(a, b)
+
+
 def _rim_edges(triangles: IntArray) -> IntArray:
     """Return the directed edges that belong to one triangle only, ``(e, 2)``."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    _, first, count = np.unique(
-        np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True
-    )
-    return edges[first[count == 1]]
+    ends, keys = _half_edges(triangles)
+    _, first, count = np.unique(keys, return_index=True, return_counts=True)
+    return ends[first[count == 1]]
 
 
 def _flipped(points: FloatArray, triangles: IntArray) -> IntArray:
@@ -156,15 +165,15 @@ def _flipped(points: FloatArray, triangles: IntArray) -> IntArray:
     new = [_unit_normal(points, c, d, b), _unit_normal(points, d, c, a)]
     smooth = (old[0] * old[1]).sum(axis=1) > np.cos(CREASE_RAD)
     unfolded = (new[0] * new[1]).sum(axis=1) > np.cos(CREASE_RAD)
-    wanted = np.flatnonzero((facing > np.pi + 1e-6) & smooth & unfolded)
-    known = {(int(i), int(j)) for i, j in np.sort(edges, axis=1)}
-    known |= {(int(i), int(j)) for i, j in np.sort(_rim_edges(triangles), axis=1)}
+    made = _edge_keys(c, d, int(triangles.max()) + 1)
+    fresh = ~np.isin(made, _half_edges(triangles)[1])
+    wanted = np.flatnonzero((facing > np.pi + 1e-6) & smooth & unfolded & fresh)
+    taken: set[int] = set()
     touched = np.zeros(len(faces), dtype=bool)
     for e in wanted[np.argsort(-facing[wanted], kind="stable")]:
-        made = (int(min(c[e], d[e])), int(max(c[e], d[e])))
-        if touched[left[e]] or touched[right[e]] or made in known:
+        if touched[left[e]] or touched[right[e]] or int(made[e]) in taken:
             continue
-        known.add(made)
+        taken.add(int(made[e]))
         touched[[left[e], right[e]]] = True
         faces[left[e]] = c[e], d[e], b[e]
         faces[right[e]] = d[e], c[e], a[e]
@@ -179,13 +188,12 @@ def _inner_edges(
     The left triangle runs from the edge's first end to its second, the right one back.
     """
     t = len(triangles)
-    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    ends, keys = _half_edges(triangles)
     apex = np.concatenate([triangles[:, 2], triangles[:, 0], triangles[:, 1]])
     owner = np.tile(np.arange(t), 3)
-    _, group = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
     # Both halves of an edge follow each other, the one that runs upwards first.
-    order = np.lexsort([ends[:, 0] > ends[:, 1], group.ravel()])
-    pair = np.flatnonzero(np.diff(group.ravel()[order]) == 0)
+    order = np.lexsort([ends[:, 0] > ends[:, 1], keys])
+    pair = np.flatnonzero(np.diff(keys[order]) == 0)
     one, two = order[pair], order[pair + 1]
     return ends[one], owner[one], owner[two], apex[one], apex[two]
 
@@ -226,7 +234,7 @@ def _relaxed(
 
 def adjacency(triangles: IntArray, point_count: int) -> csr_matrix:
     """Return the matrix that takes values at points to the mean of their neighbours'."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = _half_edges(triangles)[0]
     edges = np.concatenate([edges, edges[:, ::-1]])
     linked = csr_matrix(
         (np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(point_count, point_count)

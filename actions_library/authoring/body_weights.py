@@ -48,38 +48,46 @@ def body_weights(
         twin = joint.replace("left_", "right_")
         dense[~other, skeleton.index(joint)] += share[~other]
         dense[other, skeleton.index(twin)] += share[other]
-    return symmetric(dense, triangles, mirror, skeleton)
+    mean = adjacency(triangles, len(points))
+    for _ in range(SMOOTHING_ROUNDS):
+        dense = 0.5 * dense + 0.5 * (mean @ dense)
+    twins = [skeleton.index(_twin(joint)) for joint in skeleton.joints]
+    return 0.5 * (dense + dense[mirror][:, twins])
 
 
-def weights_of_neighbours(
-    points: FloatArray, body_points: FloatArray, body_weights: FloatArray
+def weights_of_skin(
+    points: FloatArray, body_points: FloatArray, body_weights: FloatArray, skeleton: Skeleton
 ) -> FloatArray:
-    """Return the weights at points near a body, from the body's points around each."""
+    """Return the weights ``(p, j)`` at points near a body, from the body's points around each.
+
+    Each side is asked about its own half alone: the inside of one trouser leg is as near to the
+    other leg.
+    """
     from scipy.spatial import KDTree
 
-    distance, near = KDTree(body_points).query(points, k=6)
+    left = body_points[:, 0] >= 0.0
+    folded = points * np.where(points[:, :1] < 0, [-1.0, 1.0, 1.0], 1.0)
+    distance, near = KDTree(body_points[left]).query(folded, k=12)
     share = 1.0 / (distance + 0.002) ** 2
     share /= share.sum(axis=1, keepdims=True)
-    return np.einsum("pk,pkj->pj", share, body_weights[near])
-
-
-def symmetric(
-    weights: FloatArray, triangles: IntArray, mirror: NDArray[np.int64], skeleton: Skeleton
-) -> FloatArray:
-    """Return weights ``(p, j)`` averaged over the mesh and made equal on both sides."""
-    mean = adjacency(triangles, len(weights))
-    for _ in range(SMOOTHING_ROUNDS):
-        weights = 0.5 * weights + 0.5 * (mean @ weights)
+    weights = np.einsum("pk,pkj->pj", share, body_weights[left][near])
     twins = [skeleton.index(_twin(joint)) for joint in skeleton.joints]
-    return 0.5 * (weights + weights[mirror][:, twins])
+    swapped = weights[:, twins]
+    x = points[:, :1]
+    return np.where(x > 0, weights, np.where(x < 0, swapped, 0.5 * (weights + swapped)))
 
 
 def strongest(dense: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Return the four largest weights of each row, normalised, and their places."""
-    indices = np.argsort(-dense, axis=1, kind="stable")[:, :MAX_INFLUENCES]
-    weights = np.take_along_axis(dense, indices, axis=1)
-    weights = np.where(weights < 1e-3, 0.0, weights)
-    return indices, weights / weights.sum(axis=1, keepdims=True)
+    """Return the four largest weights of each row, normalised, and their places.
+
+    The fifth is taken from each of the four first: a weight then fades before it is dropped, and
+    of two equal ones, left and right, not one alone stays.
+    """
+    dense = np.where(dense < 1e-3, 0.0, dense)
+    order = np.argsort(-dense, axis=1, kind="stable")
+    largest = np.take_along_axis(dense, order[:, : MAX_INFLUENCES + 1], axis=1)
+    weights = largest[:, :MAX_INFLUENCES] - largest[:, MAX_INFLUENCES:]
+    return order[:, :MAX_INFLUENCES], weights / weights.sum(axis=1, keepdims=True)
 
 
 def _twin(joint: str) -> str:
