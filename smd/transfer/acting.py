@@ -49,19 +49,29 @@ def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece) -> Poses
 
 def acted_contacts(
     moves: Sequence[Move], time_s: FloatArray, idle: Piece, feet: Sequence[int]
-) -> BoolArray:
-    """Return when each foot should stand, ``(n, feet)``, as the clips say."""
+) -> tuple[BoolArray, FloatArray]:
+    """Return when each foot should stand, and how far it has pivoted, as the clips say.
+
+    Returns
+    -------
+    stands, pivot_rad
+        ``(n, feet)``; the pivots of all clips that were seen add up.
+    """
     clock_s = moves[0].start_s
     stands = np.zeros((len(time_s), len(feet)), dtype=bool)
+    pivots = np.zeros((len(time_s), len(feet)))
     for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
         now_s = time_s[rows]
         frame, idle_frame = move.frame_at(now_s), (now_s - clock_s) * idle.clip.rate_hz
-        seen = move.presence_at(now_s) >= SEEN
+        presence = move.presence_at(now_s)
         for column, foot in enumerate(feet):
             stands[rows, column] = np.where(
-                seen, move.piece.stands_at(foot, frame), idle.stands_at(foot, idle_frame)
+                presence >= SEEN,
+                move.piece.stands_at(foot, frame),
+                idle.stands_at(foot, idle_frame),
             )
-    return stands
+            pivots[rows, column][1:] = presence[1:] * np.diff(move.piece.yaw_at(foot, frame))
+    return stands, np.cumsum(pivots, axis=0)
 
 
 def rows_of(moves: Sequence[Move], time_s: FloatArray) -> list[slice]:

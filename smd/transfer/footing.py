@@ -20,7 +20,7 @@ import numpy as np
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import quaternion_about, rotate
 from smd.transfer.easing import fading, smootherstep
-from smd.transfer.legs import Leg
+from smd.transfer.legs import Leg, yaw_of
 
 LOW_M = 0.01
 """Height up to which a sole counts as on the ground, where the clip says that it stands."""
@@ -66,6 +66,7 @@ def footing(
     foot_xyzw: FloatArray,
     ankle_m: FloatArray,
     stands: BoolArray,
+    pivot_rad: FloatArray,
     lift_m: FloatArray,
     rate_hz: float,
 ) -> Footing:
@@ -77,6 +78,8 @@ def footing(
         ``(n, 4)`` and ``(n, 3)`` the foot in the world, as the poses have it.
     stands
         ``(n,)`` when it should stand; it does while it is low enough.
+    pivot_rad
+        ``(n,)`` how far it has turned by the clips' own will: a foot that pivots may.
     lift_m
         ``(n,)`` how much higher it goes.
     """
@@ -94,8 +97,8 @@ def footing(
     speed = rate_hz * np.linalg.norm(slide, axis=-1)
     speed[1:] = np.maximum(speed[1:], speed[:-1])  # of both steps, before the frame and after
     weight = 1.0 / (STILL_M_S**2 + speed**2)
-    yaw = yaw_of(leg, foot_xyzw)
-    turn = _evened(_about_mean(-yaw[:, None], weight, plants), plants, rate_hz)[:, 0]
+    twist = yaw_of(leg, foot_xyzw) - pivot_rad
+    turn = _evened(_about_mean(-twist[:, None], weight, plants), plants, rate_hz)[:, 0]
 
     about = quaternion_about([0.0, 1.0, 0.0], turn)
     slide = _slide(ankle_m + rotate(about, heel), ankle_m + rotate(about, ball), on_ball)
@@ -106,12 +109,6 @@ def footing(
     up = np.maximum(_evened(-above[:, None], plants, 0.0)[:, 0], -above) + lift_m
     up += _cleared(above + up, plants, rate_hz)
     return Footing(down, np.stack([aside[:, 0], up, aside[:, 1]], axis=-1), turn)
-
-
-def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
-    """Return which way a foot points over the ground, about +Y from +Z, without jumps."""
-    along = rotate(foot_xyzw, leg.ball_m - leg.heel_m)
-    return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
 
 
 def plants_of(stands: BoolArray) -> IntArray:

@@ -11,8 +11,8 @@ from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.footing import Footing, footing, yaw_of
-from smd.transfer.legs import Leg, world_of
+from smd.transfer.footing import Footing, footing
+from smd.transfer.legs import Leg, world_of, yaw_of
 from smd.transfer.poses import Poses
 from smd.transfer.stepping import stepping
 
@@ -27,7 +27,12 @@ SINKING_S = 0.12
 
 
 def grounded(
-    skeleton: Skeleton, poses: Poses, stands: BoolArray, legs: Sequence[Leg], rate_hz: float
+    skeleton: Skeleton,
+    poses: Poses,
+    stands: BoolArray,
+    pivot_rad: FloatArray,
+    legs: Sequence[Leg],
+    rate_hz: float,
 ) -> Poses:
     """Return poses whose feet stand still where they should, and are never in the ground.
 
@@ -37,13 +42,15 @@ def grounded(
         With the ground root in its place.
     stands
         ``(n, legs)`` when each foot should stand.
+    pivot_rad
+        ``(n, legs)`` how far each has turned by the clips' own will.
     """
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     raw = [world_of(skeleton, leg.foot, rotation, translation) for leg in legs]
-    stands, lift_m = _stepping(legs, raw, stands, rate_hz)
+    stands, lift_m = _stepping(legs, raw, stands, pivot_rad, rate_hz)
     feet = []
     for i, (leg, (foot_q, ankle)) in enumerate(zip(legs, raw, strict=True)):
-        step = footing(leg, foot_q, ankle, stands[:, i], lift_m[:, i], rate_hz)
+        step = footing(leg, foot_q, ankle, stands[:, i], pivot_rad[:, i], lift_m[:, i], rate_hz)
         about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
         feet.append((leg, step, multiply(about, foot_q), ankle + step.shift_m))
     pelvis = _pelvis(skeleton, legs)
@@ -58,6 +65,7 @@ def _stepping(
     legs: Sequence[Leg],
     raw: Sequence[tuple[FloatArray, FloatArray]],
     stands: BoolArray,
+    pivot_rad: FloatArray,
     rate_hz: float,
 ) -> tuple[BoolArray, FloatArray]:
     """Return when feet stand once the steps that standing needs are taken, and their lift."""
@@ -67,7 +75,7 @@ def _stepping(
     balls = [p + rotate(q, leg.ball_m) for leg, (q, p) in zip(legs, raw, strict=True)]
     place = np.stack([ball[:, [0, 2]] for ball in balls], axis=1)
     yaw = np.stack([yaw_of(leg, q) for leg, (q, _) in zip(legs, raw, strict=True)], axis=1)
-    return stepping(place, yaw, stands, np.array([leg.left_m for leg in legs]), rate_hz)
+    return stepping(place, yaw - pivot_rad, stands, np.array([leg.left_m for leg in legs]), rate_hz)
 
 
 def _pelvis(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:

@@ -103,3 +103,9 @@ def world_of(
         p = p + rotate(q, translation_m[:, link])
         q = multiply(q, rotation_xyzw[:, link])
     return q, p
+
+
+def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
+    """Return which way a foot points over the ground, about +Y from +Z, without jumps."""
+    along = rotate(foot_xyzw, leg.ball_m - leg.heel_m)
+    return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))

@@ -119,8 +119,8 @@ def act(
     moves = course(timeline(part, float(time_s[0]), float(time_s[-1])), path, pieces)
     poses = placed(acted_poses(moves, time_s, pieces.idle), moves, time_s, rate_hz)
     feet = [leg.foot for leg in pieces.legs]
-    stands = acted_contacts(moves, time_s, pieces.idle, feet)
-    poses = grounded(character.skeleton, poses, stands, pieces.legs, rate_hz)
+    stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet)
+    poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz)
     return Actor(
         device=part.device,
         character=character,

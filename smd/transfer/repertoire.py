@@ -9,10 +9,10 @@ import numpy as np
 
 from actions_library.library import IDLE, Library
 from smd.character.clip import Clip
-from smd.geometry.arrays import BoolArray
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
-from smd.transfer.legs import Leg, feet_of, legs_of
+from smd.transfer.legs import Leg, feet_of, legs_of, world_of, yaw_of
 from smd.transfer.standing import standing
 
 
@@ -26,6 +26,7 @@ class Piece:
     travels : moves along the doodle's path.
     root : how its ground root goes.
     stands : (n,) when each foot stands, by the foot's joint.
+    yaw_rad : (n,) which way each foot points in the clip's own world, without jumps.
     gait : what it does per cycle, if it steps along the path.
     """
 
@@ -33,6 +34,7 @@ class Piece:
     travels: bool
     root: GroundRoot
     stands: Mapping[int, BoolArray]
+    yaw_rad: Mapping[int, FloatArray]
     gait: Gait | None
 
     @property
@@ -40,7 +42,16 @@ class Piece:
         """Index of the clip's last frame."""
         return len(self.clip) - 1
 
-    def stands_at(self, foot: int, frame: np.ndarray) -> BoolArray:
+    def yaw_at(self, foot: int, frame: FloatArray) -> FloatArray:
+        """Return which way a foot points at fractional frames; cycles add up."""
+        if foot not in self.yaw_rad:
+            return np.zeros(len(frame))
+        yaw = self.yaw_rad[foot]
+        laps = np.floor(frame / self.last_frame) if self.clip.cyclic else np.zeros(len(frame))
+        within = np.interp(frame - laps * self.last_frame, np.arange(len(yaw)), yaw)
+        return np.asarray(within + laps * (yaw[-1] - yaw[0]))
+
+    def stands_at(self, foot: int, frame: FloatArray) -> BoolArray:
         """Return whether a foot stands at the frames nearest to fractional ones."""
         if foot not in self.stands:
             return np.zeros(len(frame), dtype=bool)
@@ -84,4 +95,10 @@ def piece_of(clip: Clip, *, travels: bool, legs: Sequence[Leg]) -> Piece:
     """Study one clip."""
     stands = standing(clip, legs)
     gait = gait_of(clip, stands) if travels and clip.cyclic else None
-    return Piece(clip, travels, ground_root(clip), stands, gait)
+    yaw = {
+        leg.foot: yaw_of(
+            leg, world_of(clip.skeleton, leg.foot, clip.rotation_xyzw, clip.translation_m)[0]
+        )
+        for leg in legs
+    }
+    return Piece(clip, travels, ground_root(clip), stands, yaw, gait)

@@ -37,13 +37,13 @@ def put(leg, q, ankle, step):
     return ankle + rotate(q, leg.heel_m), ankle + rotate(q, leg.ball_m)
 
 
-def no_lift():
+def zero():
     return np.zeros(N)
 
 
 def test_a_foot_that_stands_still_is_left_alone(leg, flat):
     q, ankle = flat
-    step = footing(leg, q, ankle, np.ones(N, bool), no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, np.ones(N, bool), zero(), zero(), RATE_HZ)
     assert step.stands.all()
     assert step.shift_m == pytest.approx(np.zeros((N, 3)), abs=1e-12)
     assert step.turn_rad == pytest.approx(np.zeros(N), abs=1e-12)
@@ -53,7 +53,7 @@ def test_a_foot_that_stands_still_is_left_alone(leg, flat):
 def test_a_sliding_foot_stands_still_in_the_middle_of_its_slide(leg, flat, velocity):
     q, ankle = flat
     ankle = ankle + np.arange(N)[:, None] / RATE_HZ * [velocity[0], 0.0, velocity[1]]
-    step = footing(leg, q, ankle, np.ones(N, bool), no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, np.ones(N, bool), zero(), zero(), RATE_HZ)
     for point, raw in zip(put(leg, q, ankle, step), (leg.heel_m, leg.ball_m), strict=True):
         assert np.ptp(point, axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
         assert point[0] == pytest.approx(ankle.mean(axis=0) + raw, abs=1e-9)
@@ -62,7 +62,7 @@ def test_a_sliding_foot_stands_still_in_the_middle_of_its_slide(leg, flat, veloc
 def test_a_foot_that_slides_at_first_stands_where_it_comes_to_rest(leg, flat):
     q, ankle = flat
     ankle = ankle + np.minimum(np.arange(N) - 20, 0)[:, None] / RATE_HZ * [0.0, 0.0, 2.0]
-    step = footing(leg, q, ankle, np.ones(N, bool), no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, np.ones(N, bool), zero(), zero(), RATE_HZ)
     heel, _ = put(leg, q, ankle, step)
     assert heel[0] == pytest.approx(ankle[-1] + leg.heel_m, abs=2e-3)
 
@@ -70,9 +70,17 @@ def test_a_foot_that_slides_at_first_stands_where_it_comes_to_rest(leg, flat):
 def test_a_twisting_foot_stands_still(leg, flat):
     q, ankle = flat
     q = quaternion_about([0.0, 1.0, 0.0], np.linspace(-0.4, 0.6, N))
-    step = footing(leg, q, ankle, np.ones(N, bool), no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, np.ones(N, bool), zero(), zero(), RATE_HZ)
     for point in put(leg, q, ankle, step):
         assert np.ptp(point, axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
+
+
+def test_a_foot_that_pivots_by_its_clip_s_own_will_pivots_on(leg, flat):
+    _, ankle = flat
+    pivot = np.linspace(-0.4, 0.6, N)
+    q = quaternion_about([0.0, 1.0, 0.0], pivot)
+    step = footing(leg, q, ankle, np.ones(N, bool), pivot, zero(), RATE_HZ)
+    assert step.turn_rad == pytest.approx(np.zeros(N), abs=1e-12)
 
 
 def test_a_foot_that_rolls_over_its_ball_keeps_rolling(leg, flat):
@@ -80,14 +88,14 @@ def test_a_foot_that_rolls_over_its_ball_keeps_rolling(leg, flat):
     pitch = np.radians(50.0) * np.linspace(0.0, 1.0, N) ** 2
     q = quaternion_about([1.0, 0.0, 0.0], pitch)
     ankle = ankle + leg.ball_m - rotate(q, leg.ball_m)
-    step = footing(leg, q, ankle, np.ones(N, bool), no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, np.ones(N, bool), zero(), zero(), RATE_HZ)
     assert np.abs(step.shift_m).max() < 1e-3
 
 
 def test_a_foot_in_the_ground_is_lifted_onto_it(leg, flat):
     q, ankle = flat
     for stands in (np.ones(N, bool), np.zeros(N, bool)):
-        step = footing(leg, q, ankle - [0.0, 0.03, 0.0], stands, no_lift(), RATE_HZ)
+        step = footing(leg, q, ankle - [0.0, 0.03, 0.0], stands, zero(), zero(), RATE_HZ)
         assert (ankle[:, 1] - 0.03 + step.shift_m[:, 1]).min() > 0.05 - 0.02
 
 
@@ -96,7 +104,7 @@ def test_a_swing_leads_smoothly_from_one_stand_to_the_next(leg, flat):
     ankle = lifted(ankle, 30, 60) + np.arange(N)[:, None] / RATE_HZ * [0.5, 0.0, 0.0]
     stands = np.ones(N, bool)
     stands[30:60] = False
-    step = footing(leg, q, ankle, stands, no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, stands, zero(), zero(), RATE_HZ)
     place = (ankle + step.shift_m)[:, [0, 2]]
     assert np.ptp(place[:30], axis=0) == pytest.approx([0.0, 0.0], abs=1e-9)
     assert np.ptp(place[60:], axis=0) == pytest.approx([0.0, 0.0], abs=1e-9)
@@ -110,7 +118,7 @@ def test_a_low_swing_clears_the_ground(leg, flat):
     q, ankle = flat
     stands = np.ones(N, bool)
     stands[30:60] = False
-    step = footing(leg, q, ankle, stands, no_lift(), RATE_HZ)
+    step = footing(leg, q, ankle, stands, zero(), zero(), RATE_HZ)
     assert step.shift_m[45, 1] > 0.95 * CLEARANCE_M
     assert step.shift_m[[29, 60], 1] == pytest.approx([0.0, 0.0], abs=1e-9)
 
@@ -118,6 +126,6 @@ def test_a_low_swing_clears_the_ground(leg, flat):
 def test_a_foot_high_above_the_ground_does_not_stand_whatever_it_is_told(leg, flat):
     q, ankle = flat
     high = ankle + np.array([0.0, 0.3, 0.0])
-    step = footing(leg, q, high, np.ones(N, bool), no_lift(), RATE_HZ)
+    step = footing(leg, q, high, np.ones(N, bool), zero(), zero(), RATE_HZ)
     assert not step.stands.any()
     assert step.shift_m == pytest.approx(np.zeros((N, 3)))
