@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.recognition.automaton import Automaton, wrong_tokens
 from smd.recognition.tokens import STILL, TokenRun
 
@@ -24,12 +24,13 @@ class Costs:
         leave out of an action; less costs less in proportion, more no more.
     unexplained : of leaving a run outside of all actions, as a share of leaving it out of one.
         Were it 1, an action could reach over any amount of other movement at no price.
-    still_per_s : of stillness within an action, a second. Two like gestures with a pause between
-        are two when it is longer than ``action / still_per_s``; a bow may be held while it costs
-        less than its two strokes left unexplained.
+    still_per_s : of stillness within an action, a second. Two like gestures are two when the
+        pause between them costs more than another action (`pause_s`); a bow may be held while
+        that costs less than to leave its two strokes unexplained.
     faint, faint_beside : movement below which a run is hardly a stroke of its own: an amount, or
-        a share of the largest of the two runs on either side if that is less. Taking such a run
-        for a token of a pattern costs up to one edit, as if the token were missing.
+        if that is less, a share of a run beside it (that share of the share for the next but one,
+        and so on up to a pause). Taking such a run for a token of a pattern costs up to one edit,
+        as if the token were missing.
     sharpness : of the confidence, per edit.
     """
 
@@ -40,6 +41,11 @@ class Costs:
     faint: float = 0.3
     faint_beside: float = 1.0 / 3.0
     sharpness: float = 3.0
+
+    @property
+    def pause_s(self) -> float:
+        """The shortest stillness that parts two like gestures."""
+        return self.action / self.still_per_s
 
 
 DEFAULT_COSTS = Costs()
@@ -60,7 +66,7 @@ class RunCosts:
     skip: FloatArray
     unexplained: FloatArray
     faintness: FloatArray
-    is_still: np.ndarray
+    is_still: BoolArray
 
     def of_reading(self, automaton: Automaton, runs: Sequence[TokenRun]) -> FloatArray:
         """Return ``(n, p)``, the cost of taking each run for a token that a state reads."""
@@ -77,12 +83,27 @@ def run_costs(runs: Sequence[TokenRun], costs: Costs) -> RunCosts:
     is_still = np.array([run.token == STILL for run in runs], dtype=bool)
     duration_s = np.array([run.end_s - run.start_s for run in runs])
     movement = np.where(is_still, 0.0, np.minimum(extent / costs.worth, 1.0))
-    padded = np.pad(extent, 2)
-    beside = np.max([padded[i : i + len(runs)] for i in (0, 1, 3, 4)], axis=0)
-    enough = np.maximum(np.minimum(costs.faint, costs.faint_beside * beside), 1e-12)
+    is_pause = is_still & (duration_s >= costs.pause_s)
+    enough = np.minimum(costs.faint, _shadows(extent, is_pause, costs.faint_beside))
     return RunCosts(
         skip=np.where(is_still, costs.still_per_s * duration_s, movement),
         unexplained=costs.unexplained * movement,
-        faintness=np.where(is_still, 0.0, np.maximum(1.0 - extent / enough, 0.0)),
+        faintness=np.where(
+            is_still, 0.0, np.maximum(1.0 - extent / np.maximum(enough, 1e-12), 0.0)
+        ),
         is_still=is_still,
     )
+
+
+def _shadows(extent: FloatArray, is_pause: BoolArray, share: float) -> FloatArray:
+    """Return the largest movement before or after each run, times ``share`` for each run away.
+
+    A pause casts no shadow and lets none through.
+    """
+    shadow = np.zeros(len(extent))
+    for order in (range(len(extent)), range(len(extent) - 1, -1, -1)):
+        falling = 0.0
+        for i in order:
+            shadow[i] = max(shadow[i], falling)
+            falling = 0.0 if is_pause[i] else share * max(falling, float(extent[i]))
+    return shadow

@@ -9,10 +9,10 @@ import numpy as np
 
 from smd.geometry.arrays import FloatArray
 from smd.recognition.automaton import compile_automaton, least_cost
-from smd.recognition.costs import DEFAULT_COSTS, Costs, RunCosts, run_costs
+from smd.recognition.costs import DEFAULT_COSTS, Costs, run_costs
 from smd.recognition.pattern import Pattern
 from smd.recognition.segmentation import Segment, least_cost_segments
-from smd.recognition.tokens import Token, TokenRun
+from smd.recognition.tokens import TokenRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +50,8 @@ def recognize(
     The runs are cut into actions and unexplained rest at the least total cost: every action
     costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run in
     proportion to the movement in it, unexplained stillness nothing. Little or aimless movement is
-    therefore cheaper to leave alone than to explain. Faint runs at an action's ends that go its
-    way are added to it.
+    therefore cheaper to leave alone than to explain. An action then takes in the small runs that
+    lead into it or out of it.
 
     The distance is Levenshtein's (section 4.2 of the paper [1]_) with two prices that depend on
     the run: leaving a run out costs less than one edit when there is little movement in it, and
@@ -90,7 +90,7 @@ def recognize(
         action=costs.action,
     )
     spans = []
-    for segment, whole in zip(segments, _with_faint_ends(segments, runs, prices), strict=True):
+    for segment, whole in zip(segments, _with_loose_ends(segments, runs), strict=True):
         part = slice(segment.first, segment.last)
         distance = [
             least_cost(automaton, read=reading[part], skip=prices.skip[part])
@@ -118,31 +118,34 @@ def _share(chosen: int, cost: FloatArray, sharpness: float) -> float:
     return float(1.0 / np.exp(-sharpness * (cost - cost[chosen])).sum())
 
 
-def _with_faint_ends(
-    segments: Sequence[Segment], runs: Sequence[TokenRun], prices: RunCosts
-) -> list[Segment]:
-    """Return the segments with the faint runs beside them that go the same way.
+def _with_loose_ends(segments: Sequence[Segment], runs: Sequence[TokenRun]) -> list[Segment]:
+    """Return the segments with the unexplained runs beside them that belong to them.
 
-    A hand that sets out or arrives is slow, and its direction uncertain.
+    A hand that sets out or arrives is slow, and its direction uncertain: a run that goes the way
+    of the one it leads to, and is not the largest, is of one movement with the rest.
     """
     grown: list[Segment] = []
     for i, segment in enumerate(segments):
         first, last = segment.first, segment.last
         start = grown[-1].last if grown else 0
         end = segments[i + 1].first if i + 1 < len(segments) else len(runs)
-        while first > start and prices.faintness[first - 1] > 0.0:
-            if not _go_the_same_way(runs[first - 1].token, runs[first].token):
-                break
+        largest = max(_extent(run) for run in runs[first:last])
+        while first > start and _leads_into(runs[first - 1], runs[first], largest):
             first -= 1
-        while last < end and prices.faintness[last] > 0.0:
-            if not _go_the_same_way(runs[last].token, runs[last - 1].token):
-                break
+        while last < end and _leads_into(runs[last], runs[last - 1], largest):
             last += 1
         grown.append(replace(segment, first=first, last=last))
     return grown
 
 
-def _go_the_same_way(a: Token, b: Token) -> bool:
-    """Tell whether two tokens' directions are less than a right angle apart."""
+def _leads_into(run: TokenRun, neighbour: TokenRun, largest: float) -> bool:
+    """Tell whether a run is within a right angle of its neighbour's way, and not too large."""
+    a, b = run.token, neighbour.token
     ours, theirs = (*a.translation, *a.rotation), (*b.translation, *b.rotation)
-    return sum(x * y for x, y in zip(ours, theirs, strict=True)) > 0
+    same_way = sum(x * y for x, y in zip(ours, theirs, strict=True)) > 0
+    return same_way and _extent(run) < largest
+
+
+def _extent(run: TokenRun) -> float:
+    """Return how much movement is in a run."""
+    return run.travel_heights + run.turn_rad

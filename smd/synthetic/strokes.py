@@ -365,6 +365,11 @@ class Take:
         self.now_s += duration_s
         return self
 
+    def until(self, time_s: float) -> Take:
+        """Hold still until a time; at once if it has passed."""
+        self.now_s = max(self.now_s, time_s)
+        return self
+
     def play(self, action: str, *, size: float = 1.0, pace: float = 1.0) -> Take:
         """Play an action's gesture as this person does; ``size`` and ``pace`` as in `gesture`."""
         person, rng = self._person, self._rng
