@@ -15,7 +15,7 @@ from pathlib import Path
 from smd.errors import ExportError
 from smd.files import replacing
 
-ROWS = 12
+ROWS = 16
 """Most rows of one filmstrip; a longer performance shows its first ones and says so."""
 
 REFUSED = 3

@@ -34,6 +34,7 @@ _LANES = {"trajectory": 2.0, "moves": 0.42, "turns": 0.42, "phrase": 0.55, "effo
 """Height of each lane in inches, from top to bottom."""
 
 _SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62, 0.2, 0.6
+_LETTER_INCHES = 0.066  # at 8 points, of most names
 _AXIS_COLORS = {"x": "#d6455d", "y": "#37a562", "z": "#3b6fd4"}
 _EFFORT_COLORS = {"time": "#475063", "weight": "#a5afbd", "space": "#7d6748", "flow": "#cdb88f"}
 _INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
@@ -41,12 +42,12 @@ _INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A span of time in a lane, and what is written in it where it fits."""
+    """A span of time in a lane; the first of its texts that fits is written in it."""
 
     start_s: float
     end_s: float
-    text: str
-    color: str | RGB
+    texts: tuple[str, ...]
+    color: RGB
 
 
 def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> None:
@@ -196,7 +197,7 @@ def _token_blocks(
             if any(direction):
                 token = Token(direction) if letter == "T" else Token(rotation=direction)
                 span = members[0].start_s, members[-1].end_s
-                blocks.append(Block(*span, str(token), _direction_color(direction)))
+                blocks.append(Block(*span, (str(token),), _direction_color(direction)))
     return blocks
 
 
@@ -208,19 +209,16 @@ def _direction_color(direction: Direction) -> RGB:
 
 
 def _phrase_blocks(part: Part, colors: dict[str, RGB]) -> list[Block]:
-    return [
-        Block(
-            phrase.start_s,
-            phrase.end_s,
-            f"{phrase.action} {round(100 * phrase.confidence)} %",
-            colors[phrase.action],
-        )
-        for phrase in part.phrases
-    ]
+    blocks = []
+    for phrase in part.phrases:
+        name = phrase.action
+        texts = f"{name} {round(100 * phrase.confidence)} %", name, name.replace("_", "\n")
+        blocks.append(Block(phrase.start_s, phrase.end_s, texts, colors[name]))
+    return blocks
 
 
 def _draw_blocks(axes: Any, blocks: Sequence[Block]) -> None:
-    """Draw a lane of coloured blocks, each with its text, or as much of it as fits."""
+    """Draw a lane of coloured blocks, each with a text where one fits."""
     axes.broken_barh(
         [(block.start_s, block.end_s - block.start_s) for block in blocks],
         (0.08, 0.84),
@@ -231,7 +229,7 @@ def _draw_blocks(axes: Any, blocks: Sequence[Block]) -> None:
     for block in blocks:
         text = _fitting(axes, block)
         if text:
-            bright = np.dot(_rgb(block.color), (0.3, 0.59, 0.11)) > 0.58
+            bright = np.dot(block.color, (0.3, 0.59, 0.11)) > 0.58
             axes.text(
                 0.5 * (block.start_s + block.end_s),
                 0.47,
@@ -245,12 +243,13 @@ def _draw_blocks(axes: Any, blocks: Sequence[Block]) -> None:
 
 
 def _fitting(axes: Any, block: Block) -> str:
-    """Return the block's text, its first word, or nothing, whichever is not wider than it."""
+    """Return the first of the block's texts that is not wider than it, or nothing."""
     inches = axes.get_figure().get_figwidth() * axes.get_position().width
     low, high = axes.get_xlim()
     room = inches * (block.end_s - block.start_s) / (high - low)
-    for text in (block.text, block.text.split(" ")[0]):
-        if 0.068 * len(text) + 0.05 < room:  # inches a letter at 8 points, at its widest
+    for text in block.texts:
+        letters = max(len(line) for line in text.splitlines())
+        if _LETTER_INCHES * letters + 0.04 < room:
             return text
     return ""
 
@@ -303,9 +302,3 @@ def _mark_dropouts(axes: dict[str, Any], dropouts: Sequence[Dropout]) -> None:
                 edgecolor="#a0522d",
                 linewidth=0,
             )
-
-
-def _rgb(color: str | RGB) -> tuple[float, ...]:
-    from matplotlib.colors import to_rgb
-
-    return to_rgb(color)

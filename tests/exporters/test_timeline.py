@@ -68,8 +68,8 @@ def test_equal_halves_of_neighbouring_tokens_are_one_block():
     runs = [TokenRun(token, i, i + 1, float(i), i + 1.0) for i, token in enumerate(tokens)]
     moves = timeline._token_blocks([runs], lambda token: token.translation, "T")
     turns = timeline._token_blocks([runs], lambda token: token.rotation, "R")
-    assert [(b.start_s, b.end_s, b.text) for b in moves] == [(1, 3, "T_Z"), (3, 4, "T_Y")]
-    assert [(b.start_s, b.end_s, b.text) for b in turns] == [(2, 4, "R_X")]
+    assert [(b.start_s, b.end_s, b.texts) for b in moves] == [(1, 3, ("T_Z",)), (3, 4, ("T_Y",))]
+    assert [(b.start_s, b.end_s, b.texts) for b in turns] == [(2, 4, ("R_X",))]
 
 
 def test_a_block_never_reaches_over_a_loss_of_tracking():
