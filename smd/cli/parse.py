@@ -43,7 +43,7 @@ def parse(
     from smd.score import score_to_json, write_score
 
     files = list(reading.recording_files(recordings))
-    outputs = targets(recordings, files, output, ".score.json") if output else []
+    outputs = targets(recordings, files, output, reading.SCORE_SUFFIX) if output else []
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     shelf = smd.load_library(library)
     scores: list[Score] = []

@@ -89,8 +89,14 @@ class ReadingOptions:
         return read_recording(path, SourceFrame.from_options(**dict(self.pairs)))
 
 
+SCORE_SUFFIX = ".score.json"
+"""Of the Scores that stand beside their recordings."""
+
+
 def recording_files(paths: Iterable[Path]) -> Iterator[Path]:
     """Yield files as they are and the recordings inside folders, sorted by name.
+
+    Scores that stand beside their recordings are passed over.
 
     Raises
     ------
@@ -104,7 +110,13 @@ def recording_files(paths: Iterable[Path]) -> Iterator[Path]:
         if not path.is_dir():
             yield path
             continue
-        inside = sorted(p for p in path.iterdir() if p.suffix.lower() in SUFFIXES and p.is_file())
+        inside = sorted(
+            file
+            for file in path.iterdir()
+            if file.suffix.lower() in SUFFIXES
+            and not file.name.endswith(SCORE_SUFFIX)
+            and file.is_file()
+        )
         if not inside:
             raise RecordingError(
                 f"{path}: expected recordings ({' '.join(sorted(SUFFIXES))}) in this folder, "

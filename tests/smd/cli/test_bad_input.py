@@ -148,7 +148,7 @@ def test_one_broken_recording_does_not_stop_the_others(run_smd, tmp_path):
     (takes / "a.csv").write_text(GOOD, encoding="utf-8")
     (takes / "b.csv").write_bytes(RECORDINGS["empty"][0])
     (takes / "c.csv").write_text(GOOD, encoding="utf-8")
-    code, out, err = run_smd("convert", takes, "-o", output)
+    code, _, err = run_smd("convert", takes, "-o", output)
     assert code == 3
     assert "b.csv" in err
     assert sorted(path.name for path in output.iterdir()) == ["a.usdc", "c.usdc"]

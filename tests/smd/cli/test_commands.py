@@ -40,9 +40,7 @@ def test_parse_then_animate_is_convert(run_smd, stories, tmp_path):
     rotations = []
     for name in ("two-steps", "one-step"):
         stage = Usd.Stage.Open(str(tmp_path / f"{name}.usdc"))
-        animation = next(
-            UsdSkel.Animation(p) for p in stage.Traverse() if p.IsA(UsdSkel.Animation)
-        )
+        animation = next(UsdSkel.Animation(p) for p in stage.Traverse() if p.IsA(UsdSkel.Animation))
         rotations.append([animation.GetRotationsAttr().Get(code) for code in (0, 40, 200)])
     # times in a Score have three decimals, so poses differ by less than a frame's change
     for mine, theirs in zip(*rotations, strict=True):
