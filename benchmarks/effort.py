@@ -20,7 +20,8 @@ from smd.formats import SourceFrame, read_recording
 from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
 from smd.synthetic.efforts import simulated_player, simulated_take
-from smd.synthetic.strokes import GESTURES, Take, simulated_person
+from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.takes import Take
 
 DATA = (
     Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data")) / "laban"

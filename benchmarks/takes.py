@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from smd.doodle import Doodle, Recording
-from smd.synthetic.strokes import GESTURES, Take, simulated_person
+from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.takes import Take
 
 
 def long_recording(

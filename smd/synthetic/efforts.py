@@ -39,7 +39,8 @@ from smd.geometry.rotations import (
     rotate,
 )
 from smd.synthetic import strokes
-from smd.synthetic.strokes import GESTURES, RATE_HZ, Person, Stroke, gesture, tracker_times
+from smd.synthetic.curves import RATE_HZ
+from smd.synthetic.strokes import GESTURES, Person, Stroke, gesture, tracker_times
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,8 @@ from smd.doodle import Doodle, Recording
 from smd.errors import SmdError
 from smd.formats import write_recording
 from smd.score import Part, Score, write_score
-from smd.synthetic.strokes import Take, simulated_person
+from smd.synthetic.strokes import simulated_person
+from smd.synthetic.takes import Take
 
 CENTRE_M = 0.84
 """Height of a standing figurine's centre: its half height above a table of 0.75 m."""
