@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.footing import Footing, footing
+from smd.transfer.footing import footing
 from smd.transfer.legs import Leg, world_of, yaw_of
 from smd.transfer.poses import Poses
 from smd.transfer.stepping import stepping
@@ -45,20 +46,57 @@ def grounded(
     pivot_rad
         ``(n, legs)`` how far each has turned by the clips' own will.
     """
-    rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
-    raw = [world_of(skeleton, leg.foot, rotation, translation) for leg in legs]
+    raw = [world_of(skeleton, leg.foot, *poses) for leg in legs]
+    hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]
     stands, lift_m = _stepping(legs, raw, stands, pivot_rad, rate_hz)
     feet = []
-    for i, (leg, (foot_q, ankle)) in enumerate(zip(legs, raw, strict=True)):
-        step = footing(leg, foot_q, ankle, stands[:, i], pivot_rad[:, i], lift_m[:, i], rate_hz)
-        about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
-        feet.append((leg, step, multiply(about, foot_q), ankle + step.shift_m))
+    for i, leg in enumerate(legs):
+        by = (pivot_rad[:, i], lift_m[:, i], rate_hz)
+        foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
+        out_of_reach = foot.short_m > MOST_SINK_M
+        if out_of_reach.any():  # let go of the ground earlier, or take hold of it later
+            foot = _put(leg, raw[i], hips[i], stands[:, i] & ~out_of_reach, *by)
+        feet.append(foot)
+    rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     pelvis = _pelvis(skeleton, legs)
     if pelvis is not None:
-        translation[:, pelvis, 1] -= _sunk(skeleton, rotation, translation, feet, rate_hz)
-    for leg, _, foot_q, ankle in feet:
-        _bring(skeleton, leg, rotation, translation, foot_q, ankle)
+        short_m = np.max([foot.short_m for foot in feet], axis=0)
+        translation[:, pelvis, 1] -= _sunk(short_m, rate_hz)
+    for foot in feet:
+        _bring(skeleton, foot, rotation, translation)
     return Poses(rotation, translation)
+
+
+class _Foot(NamedTuple):
+    """Where a foot goes: its rotation and ankle in the world.
+
+    ``short_m`` is how much too high the hip is for the leg to reach a standing foot, 0 otherwise.
+    """
+
+    leg: Leg
+    rotation_xyzw: FloatArray
+    ankle_m: FloatArray
+    short_m: FloatArray
+
+
+def _put(
+    leg: Leg,
+    raw: tuple[FloatArray, FloatArray],
+    hip_m: FloatArray,
+    stands: BoolArray,
+    pivot_rad: FloatArray,
+    lift_m: FloatArray,
+    rate_hz: float,
+) -> _Foot:
+    """Take the sliding out of a foot, and see whether its leg reaches it."""
+    step = footing(leg, *raw, stands, pivot_rad, lift_m, rate_hz)
+    about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
+    ankle_m = raw[1] + step.shift_m
+    reach_m = leg.limb.reach_m * (1.0 - SOFTNESS)
+    aside_m = np.hypot(*(hip_m - ankle_m)[:, [0, 2]].T)
+    depth_m = np.sqrt(np.maximum(reach_m**2 - aside_m**2, 0.0))
+    short_m = np.maximum(hip_m[:, 1] - ankle_m[:, 1] - depth_m, 0.0)
+    return _Foot(leg, multiply(about, raw[0]), ankle_m, np.where(step.stands, short_m, 0.0))
 
 
 def _stepping(
@@ -90,45 +128,26 @@ def _pelvis(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:
     return holders.pop() if len(holders) == 1 else None
 
 
-def _sunk(
-    skeleton: Skeleton,
-    rotation: FloatArray,
-    translation: FloatArray,
-    feet: Sequence[tuple[Leg, Footing, FloatArray, FloatArray]],
-    rate_hz: float,
-) -> FloatArray:
+def _sunk(short_m: FloatArray, rate_hz: float) -> FloatArray:
     """Return how far the body sinks ``(n,)`` for every standing foot to be within reach."""
-    need = np.zeros(len(rotation))
-    for leg, step, _, ankle in feet:
-        _, hip = world_of(skeleton, leg.upper, rotation, translation)
-        reach = leg.limb.reach_m * (1.0 - SOFTNESS)
-        aside = np.hypot(*(hip - ankle)[:, [0, 2]].T)
-        depth = np.sqrt(np.maximum(reach**2 - aside**2, 0.0))
-        need = np.maximum(need, np.where(step.stands, hip[:, 1] - ankle[:, 1] - depth, 0.0))
-    need = np.minimum(need, MOST_SINK_M)
+    need_m = np.minimum(short_m, MOST_SINK_M)
     around = int(np.ceil(SINKING_S * rate_hz))
-    padded = np.pad(need, around, mode="edge")
+    padded = np.pad(need_m, around, mode="edge")
     highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * around + 1).max(axis=-1)
     return gaussian_smoothed(highest, SINKING_S / 3.0 * rate_hz)
 
 
-def _bring(
-    skeleton: Skeleton,
-    leg: Leg,
-    rotation: FloatArray,
-    translation: FloatArray,
-    foot_q: FloatArray,
-    ankle: FloatArray,
-) -> None:
+def _bring(skeleton: Skeleton, foot: _Foot, rotation: FloatArray, translation: FloatArray) -> None:
     """Turn thigh, shin and foot, in place, so that the foot is where and as it should be.
 
     The knee keeps pointing where it did.
     """
+    leg = foot.leg
     parent_q, _ = world_of(skeleton, int(skeleton.parents[leg.upper]), rotation, translation)
     thigh_q, hip = world_of(skeleton, leg.upper, rotation, translation)
     hinge = rotate(thigh_q, leg.limb.upper_hinge)
-    pole = np.cross(hinge, hip - ankle)
-    upper_q, lower_q = two_bone_ik(leg.limb, hip, ankle, pole, softness=SOFTNESS)
+    pole = np.cross(hinge, hip - foot.ankle_m)
+    upper_q, lower_q = two_bone_ik(leg.limb, hip, foot.ankle_m, pole, softness=SOFTNESS)
     rotation[:, leg.upper] = multiply(inverse(parent_q), upper_q)
     rotation[:, leg.lower] = multiply(inverse(upper_q), lower_q)
-    rotation[:, leg.foot] = multiply(inverse(lower_q), foot_q)
+    rotation[:, leg.foot] = multiply(inverse(lower_q), foot.rotation_xyzw)
