@@ -25,11 +25,15 @@ def normalized(vector: ArrayLike) -> FloatArray:
 def multiply(a_xyzw: ArrayLike, b_xyzw: ArrayLike) -> FloatArray:
     """Return the Hamilton product: first ``b``, then ``a``."""
     a, b = np.asarray(a_xyzw, dtype=np.float64), np.asarray(b_xyzw, dtype=np.float64)
-    av, aw = a[..., :3], a[..., 3:]
-    bv, bw = b[..., :3], b[..., 3:]
-    vector = aw * bv + bw * av + np.cross(av, bv)
-    scalar = aw * bw - np.sum(av * bv, axis=-1, keepdims=True)
-    return np.concatenate([vector, scalar], axis=-1)
+    ax, ay, az, aw = (a[..., i] for i in range(4))
+    bx, by, bz, bw = (b[..., i] for i in range(4))
+    # Component by component, since np.cross takes two to five times as long.
+    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    product[..., 0] = aw * bx + ax * bw + ay * bz - az * by
+    product[..., 1] = aw * by + ay * bw + az * bx - ax * bz
+    product[..., 2] = aw * bz + az * bw + ax * by - ay * bx
+    product[..., 3] = aw * bw - ax * bx - ay * by - az * bz
+    return product
 
 
 def inverse(q_xyzw: ArrayLike) -> FloatArray:
@@ -40,9 +44,15 @@ def inverse(q_xyzw: ArrayLike) -> FloatArray:
 def rotate(q_xyzw: ArrayLike, vector: ArrayLike) -> FloatArray:
     """Turn vectors ``(..., 3)`` by unit quaternions ``(..., 4)``."""
     q, v = np.asarray(q_xyzw, dtype=np.float64), np.asarray(vector, dtype=np.float64)
-    u = q[..., :3]
-    t = 2.0 * np.cross(u, v)
-    return v + q[..., 3:] * t + np.cross(u, t)
+    x, y, z, w = (q[..., i] for i in range(4))
+    vx, vy, vz = (v[..., i] for i in range(3))
+    # v + 2 w (u × v) + 2 u × (u × v), u being (x, y, z); np.cross takes twice as long and more.
+    tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
+    turned = np.empty((*np.broadcast_shapes(q.shape[:-1], v.shape[:-1]), 3))
+    turned[..., 0] = vx + w * tx + y * tz - z * ty
+    turned[..., 1] = vy + w * ty + z * tx - x * tz
+    turned[..., 2] = vz + w * tz + x * ty - y * tx
+    return turned
 
 
 def rotvec_from_quaternion(q_xyzw: ArrayLike) -> FloatArray:
