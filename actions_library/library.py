@@ -1,4 +1,4 @@
-"""Action and Library: what can be performed."""
+"""Library: what can be performed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from smd.errors import LibraryError
-from smd.recognition.pattern import Pattern
+from smd.recognition.action import Action
 
 if TYPE_CHECKING:
     from smd.character.character import Character
@@ -18,26 +18,6 @@ if TYPE_CHECKING:
 
 IDLE = "idle"
 """The clip that is played where nothing was recognised."""
-
-
-@dataclass(frozen=True, slots=True)
-class Action:
-    """Something a character can do, and the gesture that asks for it.
-
-    Attributes
-    ----------
-    name : unique in its library, a lower-case word.
-    pattern : the tokens that draw it; None for an action nobody draws (idle).
-    travels : moves along the doodle's path, or acts in place.
-    cyclic : its clip repeats, once per distance travelled where it travels.
-    description : what the gesture of the prop looks like, in one sentence.
-    """
-
-    name: str
-    pattern: Pattern | None
-    travels: bool = False
-    cyclic: bool = False
-    description: str = ""
 
 
 @dataclass(frozen=True, eq=False)

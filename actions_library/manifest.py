@@ -6,8 +6,9 @@ import json
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from actions_library.library import Action, Library
+from actions_library.library import Library
 from smd.errors import LibraryError, PatternError
+from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
 
 MANIFEST = "library.json"

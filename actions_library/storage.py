@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
 
-from actions_library.library import Action, Library
+from actions_library.library import Library
 from actions_library.manifest import MANIFEST, manifest_text, read_manifest
 from actions_library.usd_skel import (
     ANIMATION,
@@ -32,6 +32,7 @@ from smd.character.character import Character
 from smd.character.clip import STAGES, Clip
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError, LibraryError
+from smd.recognition.action import Action
 
 CHARACTER_FILE, CLIPS_FOLDER = "character.usdc", "clips"
 CHARACTER_SCHEMA, CLIP_SCHEMA, VERSION = "smd.character", "smd.clip", 1

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdSkel
 
-from actions_library.library import Action, Library, load_library, write_library
+from actions_library.library import Library, load_library, write_library
 from smd.errors import LibraryError
+from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
 from tests.naive.puppet import puppet, waving_clip
 
