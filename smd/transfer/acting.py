@@ -21,7 +21,7 @@ _STEP_S = 1e-3
 """Time over which the velocities on both sides of a boundary are taken."""
 
 
-def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece) -> Poses:
+def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece, *, clock_s: float) -> Poses:
     """Return local poses at each time, with transitions, the ground root left at its origin.
 
     Parameters
@@ -31,9 +31,10 @@ def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece) -> Poses
     time_s
         ``(n,)`` increasing, from the first move's start to the last one's end.
     idle
-        Clip that is seen as far as a move is not.
+        What is seen as far as a move is not.
+    clock_s
+        Time at which idling began.
     """
-    clock_s = moves[0].start_s
     pieces: list[Poses] = []
     for i, (move, rows) in enumerate(zip(moves, rows_of(moves, time_s), strict=True)):
         now_s = time_s[rows]
@@ -48,7 +49,12 @@ def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece) -> Poses
 
 
 def acted_contacts(
-    moves: Sequence[Move], time_s: FloatArray, idle: Piece, feet: Sequence[int]
+    moves: Sequence[Move],
+    time_s: FloatArray,
+    idle: Piece,
+    feet: Sequence[int],
+    *,
+    clock_s: float,
 ) -> tuple[BoolArray, FloatArray]:
     """Return when each foot should stand, and how far it has pivoted, as the clips say.
 
@@ -57,7 +63,6 @@ def acted_contacts(
     stands, pivot_rad
         ``(n, feet)``; the pivots of all clips that were seen add up.
     """
-    clock_s = moves[0].start_s
     stands = np.zeros((len(time_s), len(feet)), dtype=bool)
     pivots = np.zeros((len(time_s), len(feet)))
     for move, rows in zip(moves, rows_of(moves, time_s), strict=True):

@@ -19,14 +19,21 @@ from smd.transfer.timeline import Span
 from smd.transfer.travelling import along_path, leap
 
 
-def course(spans: Sequence[Span], path: GroundPath, pieces: Repertoire) -> tuple[Move, ...]:
+def course(
+    spans: Sequence[Span], path: GroundPath, pieces: Repertoire, *, clock_s: float
+) -> tuple[Move, ...]:
     """Return the moves of a performer.
 
     Places come from the path's differences, headings from the prop itself: the character stands
     where its last phrase left it, and from the next phrase on faces where the prop faces.
+
+    Parameters
+    ----------
+    clock_s
+        Time at which its idling began; no later than the first span.
     """
-    clock_s = spans[0].start_s
-    at = Placement(path.at(clock_s), float(path.heading_at(clock_s)))
+    start_s = spans[0].start_s
+    at = Placement(path.at(start_s), float(path.heading_at(start_s)))
     moves: list[Move] = []
     cast = [None if span.phrase is None else pieces.pieces[span.phrase.action] for span in spans]
     for i, (span, piece) in enumerate(zip(spans, cast, strict=True)):

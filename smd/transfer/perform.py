@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import itertools
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -73,8 +75,8 @@ def perform(
     actions = {phrase.action for part in score.performers for phrase in part.phrases}
     pieces = repertoire(library, actions)
     actors = tuple(
-        act(part, recording, stage, library.character, pieces, time_s, rate_hz)
-        for part in score.performers
+        act(part, recording, stage, library.character, pieces, time_s, rate_hz, ahead)
+        for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
     )
     return Performance(rate_hz, start_s, actors, score)
 
@@ -112,14 +114,18 @@ def act(
     pieces: Repertoire,
     time_s: FloatArray,
     rate_hz: float,
+    idling_ahead: float,
 ) -> Actor:
-    """Act out one part at even times."""
+    """Act out one part at even times, ``idling_ahead`` of a cycle ahead in its idling."""
     doodles = recording.of(part.device)
     path = ground_path(doodles, stage)
-    moves = course(timeline(part, float(time_s[0]), float(time_s[-1])), path, pieces)
-    poses = placed(acted_poses(moves, time_s, pieces.idle), moves, time_s, rate_hz)
+    clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
+    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
+    moves = course(spans, path, pieces, clock_s=clock_s)
+    poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
+    poses = placed(poses, moves, time_s, rate_hz)
     feet = [leg.foot for leg in pieces.legs]
-    stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet)
+    stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
     poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz)
     return Actor(
         device=part.device,
@@ -129,6 +135,12 @@ def act(
         doodles=tuple(stage.placed_doodle(doodle) for doodle in doodles),
         part=part,
     )
+
+
+def _idling_ahead() -> Iterator[float]:
+    """Return how far ahead each performer is in its idling, so that no two breathe as one."""
+    golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
+    return (golden * i % 1.0 for i in itertools.count())
 
 
 def placed(poses: Poses, moves: tuple[Move, ...], time_s: FloatArray, rate_hz: float) -> Poses:

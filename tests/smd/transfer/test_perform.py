@@ -229,6 +229,13 @@ def test_performers_keep_their_places_and_do_not_disturb_each_other(take, librar
     assert went == pytest.approx(alone - alone[0], abs=1e-6)
 
 
+def test_two_performers_do_not_idle_as_one(library):
+    fox, wolf = story("fox")[0], story("wolf")[0]
+    score = Score((Part("fox"), Part("wolf")))
+    first, second = animate(score, Recording((fox, wolf)), library).actors
+    assert np.abs(first.rotation_xyzw - second.rotation_xyzw).max() > 0.005
+
+
 def test_whom_nothing_was_recognised_of_idles_on_the_spot(take, library):
     performance = animate(Score((Part("fox"),)), take[0], library)
     (actor,) = performance.actors
