@@ -19,7 +19,7 @@ class Costs:
     Attributes
     ----------
     action : of seeing an action at all. Together with ``unexplained`` it says how much movement
-        an action needs: 0.4 of ``worth``, which is 7 cm or 23 degrees, where nothing is wrong.
+        an action needs: half of ``worth``, which is 9 cm or 29 degrees, where nothing is wrong.
     worth : how much movement (figure heights travelled plus radians turned) costs one edit to
         leave out of an action; less costs less in proportion, more no more.
     unexplained : of leaving a run outside of all actions, as a share of leaving it out of one.
@@ -34,11 +34,11 @@ class Costs:
     sharpness : of the confidence, per edit.
     """
 
-    action: float = 0.2
+    action: float = 0.25
     worth: float = 1.0
     unexplained: float = 0.5
-    still_per_s: float = 0.5
-    faint: float = 0.3
+    still_per_s: float = 0.625
+    faint: float = 0.5
     faint_beside: float = 1.0 / 3.0
     sharpness: float = 3.0
 

@@ -1,0 +1,224 @@
+"""How well actions are recognised, and how fast: ``python -m benchmarks.recognition``.
+
+Simulated people are ones that nothing was fitted to. Budgets: the stories exactly, boundaries
+within 0.15 s; half a second for a recording of three minutes and two devices.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from actions_library.authoring.actions import HUMANOID_ACTIONS
+from benchmarks.takes import long_recording
+from smd.doodle import Doodle
+from smd.errors import DoodleError
+from smd.formats import SourceFrame, read_recording
+from smd.geometry.resampling import interpolate_linear, interpolate_rotation
+from smd.geometry.rotations import multiply, quaternion_about, rotate
+from smd.recognition.recognizer import Span, recognize
+from smd.recognition.tokenizer import tokenize
+from smd.smoothing import smooth
+from smd.synthetic.efforts import labelled_takes
+from smd.synthetic.stories import STORIES
+from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.takes import Take
+
+DATA = Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data"))
+PATTERNS = {action.name: action.pattern for action in HUMANOID_ACTIONS if action.pattern}
+HELD_OUT = 2028
+"""Seed of people that no threshold, cost or pattern was fitted to."""
+PEOPLE = 60
+
+
+def spans_of(doodle: Doodle) -> tuple[Span, ...]:
+    """Return what is recognised in a doodle."""
+    return recognize(tokenize(smooth(doodle)), PATTERNS)
+
+
+def read_as(doodle: Doodle) -> str:
+    """Return the actions recognised in a doodle, joined."""
+    return "+".join(span.action for span in spans_of(doodle)) or "nothing"
+
+
+def turned(doodle: Doodle) -> Doodle:
+    """Return a doodle with the world turned by a quarter."""
+    quarter = quaternion_about([0.0, 1.0, 0.0], np.pi / 2.0)
+    position = rotate(quarter, doodle.position_m)
+    orientation = multiply(quarter, doodle.orientation_xyzw)
+    return Doodle(doodle.time_s, position, orientation, doodle.device)
+
+
+def scaled(doodle: Doodle, factor: float) -> Doodle:
+    """Return a doodle with its positions scaled."""
+    return Doodle(doodle.time_s, factor * doodle.position_m, doodle.orientation_xyzw, doodle.device)
+
+
+def resampled(doodle: Doodle, rate_hz: float) -> Doodle:
+    """Return a doodle at even times."""
+    at_s = np.arange(doodle.time_s[0], doodle.time_s[-1], 1.0 / rate_hz)
+    position = interpolate_linear(doodle.time_s, doodle.position_m, at_s)
+    orientation = interpolate_rotation(doodle.time_s, doodle.orientation_xyzw, at_s)
+    return Doodle(at_s, position, orientation, doodle.device)
+
+
+CHANGES: Mapping[str, Callable[[Doodle], Doodle]] = {
+    "as it is": lambda doodle: doodle,
+    "turned by 90 degrees": turned,
+    "positions x 0.5": lambda doodle: scaled(doodle, 0.5),
+    "positions x 2": lambda doodle: scaled(doodle, 2.0),
+    "at 90 Hz": lambda doodle: resampled(doodle, 90.0),
+}
+
+
+def confusions(takes: Iterator[tuple[str, Doodle]]) -> dict[str, Counter[str]]:
+    """Return how often each action was read as what."""
+    table: dict[str, Counter[str]] = {}
+    for meant, doodle in takes:
+        table.setdefault(meant, Counter())[read_as(doodle)] += 1
+    return table
+
+
+def print_confusions(table: Mapping[str, Counter[str]]) -> None:
+    """Print the share read right and what the rest was read as."""
+    for meant in GESTURES:
+        count = sum(table[meant].values())
+        wrong = [f"{read} {n}" for read, n in table[meant].most_common() if read != meant]
+        right = table[meant][meant]
+        print(f"  {meant:16} {100.0 * right / count:5.1f} % of {count:4d}  {', '.join(wrong)}")
+    every = sum(sum(row.values()) for row in table.values())
+    right = sum(row[meant] for meant, row in table.items())
+    print(f"  {'all':16} {100.0 * right / every:5.1f} % of {every}")
+
+
+def single_gestures(people: int, factor: float = 1.0) -> Iterator[tuple[str, Doodle]]:
+    """Yield one take per person and action."""
+    for index in range(people):
+        rng = np.random.default_rng([HELD_OUT, index])
+        person = simulated_person(rng)
+        for action in GESTURES:
+            take = Take(person, rng, heading_rad=rng.uniform(-np.pi, np.pi))
+            take.pause(0.6).play(action).pause(0.6)
+            yield action, scaled(take.doodle(), factor)
+
+
+def print_people() -> None:
+    """Print accuracy on single gestures, at three sizes, and with every Effort."""
+    print(f"{PEOPLE} simulated people, one gesture a take")
+    print_confusions(confusions(single_gestures(PEOPLE)))
+    for factor in (0.5, 2.0):
+        table = confusions(single_gestures(PEOPLE, factor))
+        right = sum(row[meant] for meant, row in table.items())
+        print(f"  positions x {factor:g}: {100.0 * right / (PEOPLE * len(GESTURES)):.1f} %")
+    print("the same gestures with every Effort: sudden, sustained, light, strong, and between")
+    takes = labelled_takes(people=12, repeats=11, seed=HELD_OUT)
+    print_confusions(confusions((take.action, take.doodle) for take in takes))
+
+
+def print_rows() -> None:
+    """Print how well gestures in a row are read."""
+    played = right = extra = 0
+    late_s: list[float] = []
+    for index in range(PEOPLE):
+        rng = np.random.default_rng([HELD_OUT, 1, index])
+        take = Take(simulated_person(rng), rng).pause(0.6)
+        for action in rng.permutation(list(GESTURES)):
+            take.play(str(action)).pause(float(rng.uniform(0.4, 1.2)))
+        spans = spans_of(take.doodle())
+        taken = set()
+        for phrase in take.phrases:
+            played += 1
+            for i, span in enumerate(spans):
+                together = min(span.end_s, phrase.end_s) - max(span.start_s, phrase.start_s)
+                if span.action == phrase.action and together > 0.5 * (
+                    phrase.end_s - phrase.start_s
+                ):
+                    right += 1
+                    taken.add(i)
+                    late_s += [span.start_s - phrase.start_s, span.end_s - phrase.end_s]
+                    break
+        extra += len(spans) - len(taken)
+    within = float(np.mean(np.abs(late_s) <= 0.15))
+    print(
+        f"all actions in a row, in random order, pauses of 0.4 to 1.2 s: {played} played, "
+        f"{100.0 * right / played:.1f} % found, {extra} others seen; boundaries: median "
+        f"{np.median(np.abs(late_s)):.3f} s off, {100.0 * within:.1f} % within 0.15 s"
+    )
+
+
+def print_stories() -> None:
+    """Print whether each story is understood under each change, and the worst boundary."""
+    for name, make in STORIES.items():
+        story = make()
+        for change, changed in CHANGES.items():
+            worst_s, same = 0.0, True
+            for doodle, part in zip(story.recording.doodles, story.score.performers, strict=True):
+                spans = spans_of(changed(doodle))
+                same &= [s.action for s in spans] == [p.action for p in part.phrases]
+                for span, phrase in zip(spans, part.phrases, strict=False):
+                    ends = (span.start_s - phrase.start_s, span.end_s - phrase.end_s)
+                    worst_s = max(worst_s, *map(abs, ends))
+            verdict = f"exact, worst boundary {worst_s:.3f} s off" if same else "NOT as played"
+            print(f"  {name:10} {change:21} {verdict}")
+
+
+def print_idle() -> None:
+    """Print false detections on hands that mean nothing."""
+    folder = DATA / "idle"
+    if not folder.is_dir():
+        print(f"idle hands: data absent ({folder})")
+        return
+    seen: Counter[str] = Counter()
+    all_s = taken_s = 0.0
+    for path in sorted(folder.glob("*.csv")):
+        for doodle in read_recording(path, SourceFrame(handedness="left")).doodles:
+            try:
+                spans = spans_of(doodle)
+            except DoodleError:  # too short to smooth
+                continue
+            all_s += doodle.duration_s
+            taken_s += sum(span.end_s - span.start_s for span in spans)
+            seen.update(span.action for span in spans)
+    print(
+        f"idle hands of {len(list(folder.glob('*.csv')))} people, {all_s / 60.0:.1f} min: "
+        f"{60.0 * sum(seen.values()) / all_s:.1f} false detections a minute, "
+        f"{100.0 * taken_s / all_s:.1f} % of the time: "
+        + ", ".join(f"{action} {n}" for action, n in seen.most_common())
+    )
+
+
+def print_times() -> None:
+    """Print processor time on a long recording, tokens and recognition apart."""
+    recording = long_recording(duration_s=180.0, rate_hz=90.0)
+    motions = [smooth(doodle) for doodle in recording.doodles]
+    for action in PATTERNS.values():
+        recognize((), {"": action})  # compile
+    started = time.process_time()
+    runs = [tokenize(motion) for motion in motions]
+    tokenized = time.process_time()
+    for of_device in runs:
+        recognize(of_device, PATTERNS)
+    ended = time.process_time()
+    print(
+        f"3 minutes, 2 devices, {sum(map(len, runs))} runs: tokens {tokenized - started:.3f} s, "
+        f"recognition {ended - tokenized:.3f} s"
+    )
+
+
+def main() -> None:
+    """Print every figure."""
+    print_people()
+    print_rows()
+    print("the stories")
+    print_stories()
+    print_idle()
+    print_times()
+
+
+if __name__ == "__main__":
+    main()
