@@ -1,0 +1,127 @@
+"""Embedding: poses and velocities as points whose Euclidean distance means something."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from laban import RigidMotion
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
+from smd.geometry.arrays import FloatArray
+from smd.geometry.resampling import interpolate_linear, interpolate_rotation
+from smd.geometry.rotations import (
+    heading_rad,
+    inverse,
+    matrix_from_quaternion,
+    multiply,
+    quaternion_about,
+    rotate,
+)
+
+SAMPLES = 64
+"""Poses that stand for a gesture: one every 30 ms of a gesture of 2 s."""
+
+METRES_PER_RADIAN = DEFAULT_FIGURE_HEIGHT_M
+"""How far moving is as far as turning by a radian: a figurine that moves by its own height moves
+as visibly as one that turns by a radian (the tokenizer weighs them alike)."""
+
+
+class Poses(NamedTuple):
+    """Where a prop is and how it is turned: ``position_m (n, 3)``, ``orientation_xyzw (n, 4)``."""
+
+    position_m: FloatArray
+    orientation_xyzw: FloatArray
+
+
+def sample_poses(source: Doodle | RigidMotion, samples: int = SAMPLES) -> Poses:
+    """Return poses at even times from the first sample to the last: a gesture at any speed.
+
+    Parameters
+    ----------
+    source
+        At least one sample.
+    samples
+        How many poses, at least one.
+    """
+    at_s = np.linspace(source.time_s[0], source.time_s[-1], samples)
+    return Poses(
+        interpolate_linear(source.time_s, source.position_m, at_s),
+        interpolate_rotation(source.time_s, source.orientation_xyzw, at_s),
+    )
+
+
+def start_frame(poses: Poses) -> FloatArray:
+    """Return the prop's own frame at the start, ``(4,)``: free of how the prop is held."""
+    return poses.orientation_xyzw[0]
+
+
+def heading_frame(poses: Poses) -> FloatArray:
+    """Return the frame whose up is the world's and whose front is the prop's, ``(4,)``.
+
+    Seen from above, the front is the mean of the poses' fronts, as long as they are; poses that
+    look up or down so have little say. If they cancel, it is the front of the first pose.
+    """
+    q = poses.orientation_xyzw
+    mean = rotate(q, np.broadcast_to([0.0, 0.0, 1.0], (len(q), 3))).mean(axis=0)
+    # 0.1: a full turn leaves next to nothing, and its direction is noise.
+    level = np.hypot(mean[0], mean[2]) > 0.1
+    heading = np.arctan2(mean[0], mean[2]) if level else heading_rad(q[0])
+    return quaternion_about([0.0, 1.0, 0.0], heading)
+
+
+def seen_from(poses: Poses, frame_xyzw: FloatArray) -> Poses:
+    """Return poses in a turned frame, ``(4,)``, the mean of the positions at its origin."""
+    frame_from_world = inverse(frame_xyzw)
+    position = rotate(frame_from_world, poses.position_m)
+    return Poses(
+        position - position.mean(axis=0), multiply(frame_from_world, poses.orientation_xyzw)
+    )
+
+
+def extent_m(poses: Poses) -> float:
+    """Return the root mean square distance of the positions from their mean."""
+    spread = poses.position_m - poses.position_m.mean(axis=0)
+    return float(np.sqrt(np.mean(np.sum(spread * spread, axis=-1))))
+
+
+def scaled(poses: Poses, factor: float) -> Poses:
+    """Return poses with the positions larger by a factor."""
+    return Poses(poses.position_m * factor, poses.orientation_xyzw)
+
+
+def embed_poses(poses: Poses, *, metres_per_radian: float = METRES_PER_RADIAN) -> FloatArray:
+    """Return points ``(n, 12)`` whose squared distance adds that of positions and of rotations.
+
+    The last nine numbers are the rotation matrix times ``metres_per_radian / sqrt(2)``, since the
+    Frobenius distance of the matrices of two rotations that differ by an angle ``a`` is
+    ``2 sqrt(2) |sin(a / 2)|`` [1]_: two orientations are ``2 |sin(a / 2)| metres_per_radian``
+    apart, which is ``a`` for small angles and 2 for half a turn. It depends on the angle alone,
+    not on the frame, and the sign of a quaternion does not matter.
+
+    References
+    ----------
+    .. [1] D. Q. Huynh, "Metrics for 3D Rotations: Comparison and Analysis", Journal of
+       Mathematical Imaging and Vision 35(2), 2009.
+    """
+    matrices = matrix_from_quaternion(poses.orientation_xyzw).reshape(-1, 9)
+    return np.concatenate(
+        [poses.position_m, matrices * (metres_per_radian / np.sqrt(2.0))], axis=-1
+    )
+
+
+def embed_velocities(
+    motion: RigidMotion,
+    samples: int = SAMPLES,
+    *,
+    metres_per_radian: float = METRES_PER_RADIAN,
+) -> FloatArray:
+    """Return velocities in the moving frame, ``(samples, 6)`` in m/s, at even times.
+
+    The prop's velocity as the prop sees it, and its body angular velocity times
+    ``metres_per_radian``: free of place, heading and of how the world is turned.
+    """
+    at_s = np.linspace(motion.time_s[0], motion.time_s[-1], samples)
+    velocity = rotate(inverse(motion.orientation_xyzw), motion.velocity_m_s)
+    both = np.concatenate([velocity, metres_per_radian * motion.angular_velocity_rad_s], axis=-1)
+    return interpolate_linear(motion.time_s, both, at_s)
