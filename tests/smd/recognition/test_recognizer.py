@@ -24,6 +24,7 @@ FEW = {
     "punch": Pattern.parse("T_Z T_N_Z"),
     "turn": Pattern.parse("R_Y"),
     "wave": Pattern.parse("T_X T_N_X T_X"),
+    "square": Pattern.parse("T_X T_Y T_N_X T_N_Y T_X"),
 }
 
 
@@ -125,6 +126,15 @@ def test_one_wrong_stroke_among_many_is_forgiven():
     assert (span.action, span.distance) == ("wave", 1.0)
 
 
+def test_an_action_does_not_stretch_over_the_rest_beside_it():
+    square = [("T_X", 1.0), ("T_Y", 1.0), ("T_N_X", 1.0), ("T_N_Y", 1.0), ("T_X", 1.0)]
+    rest = ("STILL", 2.0)
+    for what in ([rest, *square[1:]], [*square[:-1], rest]):
+        (span,) = recognize(runs_of(*what), FEW)
+        assert (span.action, span.distance) == ("square", 1.0)
+        assert span.last_run - span.first_run == 4
+
+
 def test_small_runs_that_lead_into_an_action_belong_to_it():
     setting_out = runs_of(("STILL", 1.0), ("T_Y_Z", 0.03), ("T_Z", 2.0), ("T_N_Y_Z", 0.03))
     (span,) = recognize(setting_out, FEW)
@@ -136,7 +146,7 @@ def test_small_runs_that_lead_into_an_action_belong_to_it():
 def test_alternatives_are_the_other_actions_nearest_first():
     (span,) = recognize(runs_of(("T_Z", 1.0), ("T_N_Z", 1.0)), FEW)
     assert span.distance == 0.0
-    assert sorted(name for name, _ in span.alternatives) == ["turn", "walk", "wave"]
+    assert sorted(name for name, _ in span.alternatives) == ["square", "turn", "walk", "wave"]
     distances = [distance for _, distance in span.alternatives]
     assert distances == sorted(distances)
     assert span.alternatives[0] == ("walk", 1.0)
