@@ -1,0 +1,239 @@
+"""Languages: what two patterns have in common, exactly, with a string that shows it.
+
+All of it walks two compiled automata side by side. Strings are counted as patterns are: without
+equal neighbours, since the repetition of a token does not matter.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from smd.geometry.arrays import BoolArray
+from smd.recognition import pattern as ast
+from smd.recognition.automaton import compile_automaton
+from smd.recognition.pattern import Pattern, merged
+from smd.recognition.tokens import Token
+
+Word = tuple[Token, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NearestWords:
+    """A string of each of two patterns, as near to each other as any.
+
+    Attributes
+    ----------
+    distance : edits that turn one into the other, at least 0.
+    first, second : the strings, without equal neighbours; equal at distance 0.
+    """
+
+    distance: int
+    first: Word
+    second: Word
+
+
+def nearest_words(a: Pattern, b: Pattern, *, most: int) -> NearestWords | None:
+    """Return the least edit distance between any string of one pattern and any of the other.
+
+    An edit inserts, deletes or replaces a token. Either string may repeat its tokens before it is
+    edited: ``T_Z T_Y T_Z`` is one edit from ``T_Z``. All pairs of states that so many edits reach
+    are followed together.
+
+    Parameters
+    ----------
+    most
+        How far to look, in edits.
+
+    Returns
+    -------
+    NearestWords or None
+        None if they are further apart. Strings of distance 0 are the shortest ones.
+    """
+    return _nearest(_walk(a), _walk(b), most)
+
+
+def shared_word(a: Pattern, b: Pattern) -> Word | None:
+    """Return the shortest string that both patterns accept; None if there is none."""
+    found = nearest_words(a, b, most=0)
+    return found.first if found else None
+
+
+def inner_word(a: Pattern, part: Pattern) -> Word | None:
+    """Return the shortest string of ``part`` that lies inside a string of ``a``; None if none.
+
+    A string lies inside another one if its tokens follow each other there without a gap.
+    """
+    whole = _walk(a)
+    anywhere = whole.step.copy()
+    anywhere[-1, :-1] = True
+    found = _nearest(_walk(part), _Walk(whole.reads, anywhere, ~whole.is_start), 0)
+    return found.first if found else None
+
+
+def extra_word(a: Pattern, b: Pattern) -> Word | None:
+    """Return the shortest string of ``a`` that ``b`` does not accept; None if it accepts all.
+
+    The states that ``b`` may be in are followed together; of several sets that meet the same state
+    of ``a``, only those that hold no other are followed further, which keeps them few [1]_.
+
+    References
+    ----------
+    .. [1] M. De Wulf et al., "Antichains: A New Algorithm for Checking Universality of Finite
+       Automata", CAV 2006.
+    """
+    ours, theirs = _walk(a), _walk(b)
+    step = [_bits(row) for row in theirs.step]
+    leave = _bits(theirs.leave)
+    readers = {token: _bits(column) for token, column in theirs.readers().items()}
+    ways = [
+        [
+            (int(s), token)
+            for s in np.flatnonzero(row)
+            for token in sorted(ours.reads[s], key=_plain)
+        ]
+        for row in ours.step
+    ]
+    start = len(ways) - 1
+    followed: list[list[int]] = [[] for _ in ways]
+    queue: deque[tuple[int, int, Word]] = deque([(start, 1 << (len(step) - 1), ())])
+    while queue:
+        state, others, word = queue.popleft()
+        if ours.leave[state] and not others & leave:
+            return word
+        after = 0
+        for other in _states(others):
+            after |= step[other]
+        for there, token in ways[state]:
+            if word and token == word[-1]:
+                continue
+            left = after & readers.get(token, 0)
+            if not any(known & left == known for known in followed[there]):
+                followed[there].append(left)
+                queue.append((there, left, (*word, token)))
+    return None
+
+
+def word_without(a: Pattern, part: Pattern) -> Word | None:
+    """Return the shortest string of ``a`` with none of ``part`` inside; None if all have one."""
+    anything = ast.Repeat(ast.Choice(a.tokens()), optional=True)
+    return extra_word(a, Pattern(ast.Sequence((anything, part.root, anything))))
+
+
+def same_language(a: Pattern, b: Pattern) -> bool:
+    """Tell whether two patterns accept the same strings."""
+    return extra_word(a, b) is None and extra_word(b, a) is None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Walk:
+    """Ways through a pattern's p states on which no token is missing; the last state is the start.
+
+    Attributes
+    ----------
+    reads : the tokens that each state reads; none for the start.
+    step : (p + 1, p + 1) bool, whether the second may follow the first.
+    leave : (p + 1,) bool, whether a string may end there.
+    """
+
+    reads: tuple[frozenset[Token], ...]
+    step: BoolArray
+    leave: BoolArray
+
+    @property
+    def is_start(self) -> BoolArray:
+        return np.arange(len(self.reads)) == len(self.reads) - 1
+
+    def readers(self) -> dict[Token, BoolArray]:
+        """Return for each token of the pattern which states read it."""
+        tokens = set().union(*self.reads)
+        return {token: np.array([token in reads for reads in self.reads]) for token in tokens}
+
+
+@lru_cache(maxsize=256)
+def _walk(pattern: Pattern) -> _Walk:
+    automaton = compile_automaton(pattern)
+    p = len(automaton)
+    step = np.zeros((p + 1, p + 1), bool)
+    step[:p, :p] = automaton.step == 0
+    step[p, :p] = automaton.enter == 0
+    return _Walk((*automaton.tokens, frozenset()), step, np.append(automaton.leave == 0, False))
+
+
+def _nearest(a: _Walk, b: _Walk, most: int) -> NearestWords | None:
+    """Return the nearest strings of two walks, at most ``most`` edits apart."""
+    step_a, step_b = a.step.astype(np.float32), b.step.astype(np.float32)
+    readers_a, readers_b = a.readers(), b.readers()
+    alike = np.zeros((len(a.reads), len(b.reads)), bool)
+    for token in readers_a.keys() & readers_b.keys():
+        alike |= readers_a[token][:, None] & readers_b[token]
+    goal = a.leave[:, None] & b.leave
+    reached = a.is_start[:, None] & b.is_start
+    layers = [reached]
+    for distance in range(most + 1):
+        while True:
+            if (reached & goal).any():
+                first, second = _traced(a, b, alike, layers, np.argwhere(reached & goal)[0])
+                return NearestWords(distance, first, second)
+            more = reached | (_stepped(reached, step_a, step_b) & alike)
+            if (more == reached).all():
+                break
+            reached = more
+            layers.append(reached)
+        if distance < most:
+            now = reached.astype(np.float32)
+            either = _stepped(reached, step_a, step_b) | (step_a.T @ now > 0) | (now @ step_b > 0)
+            reached = reached | either
+            layers.append(reached)
+    return None
+
+
+def _stepped(reached: BoolArray, step_a: np.ndarray, step_b: np.ndarray) -> BoolArray:
+    """Return the pairs of states after a step of both."""
+    return np.asarray(step_a.T @ reached.astype(np.float32) @ step_b > 0)
+
+
+def _traced(
+    a: _Walk, b: _Walk, alike: BoolArray, layers: list[BoolArray], end: np.ndarray
+) -> tuple[Word, Word]:
+    """Return the strings of a way back from a pair of states to the two starts."""
+    p, q = (int(state) for state in end)
+    first: list[Token] = []
+    second: list[Token] = []
+    while layer := next(k for k, reached in enumerate(layers) if reached[p, q]):
+        before = layers[layer - 1]
+        both = before & a.step[:, p, None] & b.step[:, q]
+        if both.any():
+            common = a.reads[p] & b.reads[q] if alike[p, q] else frozenset()
+            first.append(min(common or a.reads[p], key=_plain))
+            second.append(min(common or b.reads[q], key=_plain))
+            p, q = (int(state) for state in np.argwhere(both)[0])
+        elif (alone := before[:, q] & a.step[:, p]).any():
+            first.append(min(a.reads[p], key=_plain))
+            p = int(alone.argmax())
+        else:
+            second.append(min(b.reads[q], key=_plain))
+            q = int((before[p] & b.step[:, q]).argmax())
+    return merged(tuple(first[::-1])), merged(tuple(second[::-1]))
+
+
+def _plain(token: Token) -> tuple[int, Token]:
+    """Sort tokens along few axes first."""
+    return sum(map(abs, (*token.translation, *token.rotation))), token
+
+
+def _bits(row: BoolArray) -> int:
+    """Return a set of states as an integer."""
+    return sum(1 << int(state) for state in np.flatnonzero(row))
+
+
+def _states(bits: int) -> Iterator[int]:
+    """Yield the states of a set."""
+    while bits:
+        lowest = bits & -bits
+        yield lowest.bit_length() - 1
+        bits ^= lowest
