@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from smd.doodle import Recording
+    from smd.doodle import Doodle, Recording
     from smd.score import Score
 
 Recordings = Annotated[
@@ -38,6 +38,10 @@ Mount = Annotated[
 Device = Annotated[
     list[str] | None,
     typer.Option(help="Perform this device only; may be repeated. Default: all but headsets."),
+]
+OneDevice = Annotated[
+    str | None,
+    typer.Option("--device", help="The device to read. Default: the only one but headsets."),
 ]
 LibraryFolder = Annotated[
     Path | None, typer.Option("--library", help="A library folder. Default: the shipped humanoid.")
@@ -123,6 +127,31 @@ def recording_files(paths: Iterable[Path]) -> Iterator[Path]:
                 "found none"
             )
         yield from inside
+
+
+def doodles_of_one(recording: Recording, device: str | None) -> tuple[Doodle, ...]:
+    """Return the doodles of a device, by default of the only one that is no headset.
+
+    Raises
+    ------
+    RecordingError
+        If there is no such device, or several to choose from.
+    """
+    from smd.errors import RecordingError
+    from smd.pipeline import HEADSETS
+
+    known = recording.devices
+    played = [name for name in known if name.lower() not in HEADSETS] or list(known)
+    if device is None and len(played) > 1:
+        raise RecordingError(
+            f"{recording.source}: expected one device, or --device with one of "
+            f"{', '.join(played)}; found {len(played)}"
+        )
+    if device is not None and device not in known:
+        raise RecordingError(
+            f"{recording.source}: expected a device of {', '.join(known)}, got {device!r}"
+        )
+    return recording.of(device or played[0])
 
 
 def summary(recording: Recording, score: Score) -> str:

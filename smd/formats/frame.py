@@ -99,6 +99,12 @@ class Mount:
         """The step, in the tracker's frame."""
         return np.array([self.x_m, self.y_m, self.z_m])
 
+    def stepped(self, step_m: FloatArray) -> Mount:
+        """Return this mount with a further step ``(3,)``, in the prop's frame, to 0.1 mm."""
+        step = self.lever_m + rotate(self.tracker_from_prop_xyzw, step_m)
+        x_m, y_m, z_m = (round(value, 4) for value in step.tolist())
+        return replace(self, x_m=x_m, y_m=y_m, z_m=z_m)
+
 
 @dataclass(frozen=True, slots=True)
 class SourceFrame:
