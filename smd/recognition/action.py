@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from smd.recognition.pattern import Pattern
+
+if TYPE_CHECKING:
+    from smd.recognition.exemplar import Exemplar
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,6 +22,10 @@ class Action:
     travels : moves along the doodle's path, or acts in place.
     cyclic : its clip repeats, once per distance travelled where it travels.
     description : what the gesture of the prop looks like, in one sentence.
+    learned_from : the recordings or other examples it was learned from, by name; none where its
+        pattern was written by hand.
+    exemplar : what verification remembers of examples; None where there were none. Arrays have no
+        single truth value, so equality leaves it out.
     """
 
     name: str
@@ -25,3 +33,5 @@ class Action:
     travels: bool = False
     cyclic: bool = False
     description: str = ""
+    learned_from: tuple[str, ...] = ()
+    exemplar: Exemplar | None = field(default=None, compare=False, repr=False)
