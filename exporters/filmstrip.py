@@ -49,6 +49,10 @@ def write_filmstrip(usd_path: Path | str, png_path: Path | str, *, rows: int = R
     png_path = Path(png_path)
     if rows < 1:
         raise ExportError(f"rows: expected at least 1, got {rows}")
+    if png_path.suffix.lower() != ".png":
+        raise ExportError(
+            f"{png_path}: expected a suffix of .png, found {png_path.suffix or 'none'}"
+        )
     with replacing(png_path) as temporary:
         _draw_elsewhere(Path(usd_path), temporary, png_path, rows)
 

@@ -132,6 +132,13 @@ def test_a_broken_score_is_named(run_smd, tmp_path, stories, change, said):
     assert sorted(tmp_path.iterdir()) == [score]
 
 
+@pytest.mark.parametrize("picture", ["strip.jpg", "nowhere/strip.png"])
+def test_a_picture_that_cannot_be_is_refused(run_smd, tmp_path, picture):
+    code, _, err = run_smd("render", tmp_path / "any.usda", "-o", tmp_path / picture)
+    assert "strip" in expect_one_line(code, err)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_thirty_minutes_of_stillness_is_no_error(run_smd, tmp_path):
     take, output = tmp_path / "still.csv", tmp_path / "still.usdc"
     rows = "".join(ROW.format(t=round(i / 60, 4)) for i in range(30 * 60 * 60))
