@@ -12,6 +12,7 @@ from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
+from smd.recognition.token_costs import TokenCosts, unit_costs
 from smd.recognition.tokens import Token
 
 FAR = 1 << 30
@@ -63,21 +64,6 @@ class Automaton:
         return int((self.enter + self.leave).min()) + 1
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Occurrences:
-    """Where in a string something like the pattern ends.
-
-    Attributes
-    ----------
-    distance : (n + 1,) int64, ``distance[j]`` the least distance of a part that ends before
-        token j; the part may be empty.
-    start : (n + 1,) int64, where that part begins; the shortest one if several are as near.
-    """
-
-    distance: IntArray
-    start: IntArray
-
-
 @lru_cache(maxsize=256)
 def compile_automaton(pattern: Pattern) -> Automaton:
     """Compile a pattern; for m occurrences of tokens this takes O(m^3) time, once."""
@@ -101,15 +87,18 @@ def compile_automaton(pattern: Pattern) -> Automaton:
     )
 
 
-def edit_distance(automaton: Automaton, word: Sequence[Token]) -> int:
-    """Return the least number of edits that turn ``word`` into a string of the pattern.
+def edit_distance(
+    automaton: Automaton, word: Sequence[Token], token_costs: TokenCosts | None = None
+) -> float:
+    """Return the least cost of the edits that turn ``word`` into a string of the pattern.
 
-    An edit inserts, deletes or replaces one token. A string is of the pattern if, its runs of
+    An edit inserts or deletes a token at the cost of 1, or replaces one at its price among
+    ``token_costs``, which is 1 if none are given. A string is of the pattern if, its runs of
     equal tokens merged, it is one of the pattern's words (the Levenshtein distance of section 4.2
-    of the paper, exact for any repetition).
+    of the paper, exact for any repetition). `bank.distances` is the fast form, for many patterns.
     """
-    wrong = wrong_tokens(automaton, word).astype(np.float64)
-    return int(least_cost(automaton, read=wrong, skip=np.ones(len(word))))
+    read = reading(automaton, word, token_costs or unit_costs())
+    return least_cost(automaton, read=read, skip=np.ones(len(word)))
 
 
 def least_cost(automaton: Automaton, *, read: FloatArray, skip: FloatArray) -> float:
@@ -131,41 +120,15 @@ def least_cost(automaton: Automaton, *, read: FloatArray, skip: FloatArray) -> f
     return min(unread + automaton.shortest, float((reached + automaton.leave).min()))
 
 
-def occurrences(automaton: Automaton, word: Sequence[Token]) -> Occurrences:
-    """Find, for each end in a string, the part that is nearest to the pattern.
-
-    One pass over the string (Sellers' algorithm [1]_ on the automaton), exact, unit costs.
-
-    References
-    ----------
-    .. [1] P. H. Sellers, "The Theory and Computation of Evolutionary Distances: Pattern
-       Recognition", Journal of Algorithms 1(4), 1980.
-    """
-    n = len(word)
-    # Distance and start in one number, compared in this order: distance * unit + (n - start).
-    unit = n + 1
-    enter, step, leave = (unit * a for a in (automaton.enter, automaton.step, automaton.leave))
-    wrong = unit * wrong_tokens(automaton, word)
-    reached = np.full(len(automaton), unit * FAR)
-    best = np.empty(n + 1, np.int64)
-    for j in range(n + 1):
-        best[j] = min(unit * automaton.shortest + n - j, int((reached + leave).min()))
-        if j < n:
-            arriving = np.minimum(n - j + enter, _arrivals(reached, step))
-            reached = np.minimum(reached + unit, arriving + wrong[j])
-    return Occurrences(distance=best // unit, start=n - best % unit)
-
-
-def wrong_tokens(automaton: Automaton, word: Sequence[Token]) -> IntArray:
-    """Return ``(n, p)``: 0 where a state reads the token of the string, 1 elsewhere."""
-    known = {token: [token not in reads for reads in automaton.tokens] for token in set(word)}
-    wrong = np.array([known[token] for token in word], dtype=np.int64)
-    return wrong.reshape(len(word), len(automaton))
+def reading(automaton: Automaton, word: Sequence[Token], token_costs: TokenCosts) -> FloatArray:
+    """Return ``(n, p)``, what it costs to take each token for one that each state reads."""
+    columns = [token_costs.between(word, tokens).min(axis=1) for tokens in automaton.tokens]
+    return np.stack(columns, axis=1)
 
 
 def _arrivals(reached: FloatArray, step: IntArray) -> FloatArray:
     """Return the least cost of standing before each position, coming from any other."""
-    return (reached[..., :, None] + step).min(axis=-2)
+    return (reached[:, None] + step).min(axis=0)
 
 
 def _glushkov(

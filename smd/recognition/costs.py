@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.recognition.automaton import Automaton, wrong_tokens
+from smd.recognition.bank import Bank
 from smd.recognition.tokens import STILL, TokenRun
 
 
@@ -68,13 +68,14 @@ class RunCosts:
     faintness: FloatArray
     is_still: BoolArray
 
-    def of_reading(self, automaton: Automaton, runs: Sequence[TokenRun]) -> FloatArray:
-        """Return ``(n, p)``, the cost of taking each run for a token that a state reads."""
+    def of_reading(self, bank: Bank, runs: Sequence[TokenRun]) -> FloatArray:
+        """Return ``(n, a, p)``, the cost of taking each run for a token that a state reads."""
+        mistaken = bank.reading(run.token for run in runs)
         # Stillness taken for a movement costs more than that movement missing, or it would be a
         # way to stretch an action over the rest beside it.
-        wrong = np.where(self.is_still, 1.0 + self.skip, 1.0)
-        mistaken = wrong_tokens(automaton, [run.token for run in runs]) * wrong[:, None]
-        return np.maximum(mistaken, self.faintness[:, None])
+        still = np.flatnonzero(self.is_still)
+        mistaken[still] = np.sign(mistaken[still]) * (1.0 + self.skip[still, None, None])
+        return np.maximum(mistaken, self.faintness[:, None, None])
 
 
 def run_costs(runs: Sequence[TokenRun], costs: Costs) -> RunCosts:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from smd.geometry.arrays import FloatArray
-from smd.recognition.automaton import compile_automaton, least_cost
+from smd.recognition.bank import Bank, compile_library, least_costs
 from smd.recognition.costs import DEFAULT_COSTS, Costs, run_costs
 from smd.recognition.pattern import Pattern
-from smd.recognition.segmentation import Segment, least_cost_segments
+from smd.recognition.segmentation import Segment, Segmenter, least_cost_segments
 from smd.recognition.tokens import TokenRun
 
 
@@ -41,17 +41,18 @@ class Span:
 
 def recognize(
     runs: Sequence[TokenRun],
-    patterns: Mapping[str, Pattern],
+    library: Bank | Mapping[str, Pattern],
     *,
     costs: Costs = DEFAULT_COSTS,
+    segments: Segmenter = least_cost_segments,
 ) -> tuple[Span, ...]:
     """Find the actions in a tokenized doodle.
 
-    The runs are cut into actions and unexplained rest at the least total cost: every action
-    costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run in
-    proportion to the movement in it, unexplained stillness nothing. Little or aimless movement is
-    therefore cheaper to leave alone than to explain. An action then takes in the small runs that
-    lead into it or out of it.
+    The runs are cut into actions and unexplained rest, by default at the least total cost: every
+    action costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run
+    in proportion to the movement in it, unexplained stillness nothing. Little or aimless movement
+    is therefore cheaper to leave alone than to explain. An action then takes in the small runs
+    that lead into it or out of it.
 
     The distance is Levenshtein's (section 4.2 of the paper [1]_) with two prices that depend on
     the run: leaving a run out costs less than one edit when there is little movement in it, and
@@ -66,8 +67,13 @@ def recognize(
     ----------
     runs
         Of one doodle, from `tokenize`.
-    patterns
-        By action; where two explain a span equally well, the earlier one is taken.
+    library
+        Patterns by action, or the bank they were compiled to; where two explain a span equally
+        well, the earlier one is taken.
+    costs
+        What is weighed against what.
+    segments
+        How the runs are cut: `least_cost_segments`, or the paper's `longest_match_segments`.
 
     Returns
     -------
@@ -78,36 +84,28 @@ def recognize(
     ----------
     .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
     """
-    names = tuple(patterns)
-    automata = [compile_automaton(pattern) for pattern in patterns.values()]
+    bank = library if isinstance(library, Bank) else compile_library(library)
     prices = run_costs(runs, costs)
-    read = [prices.of_reading(automaton, runs) for automaton in automata]
-    segments = least_cost_segments(
-        automata,
-        read=read,
-        skip=prices.skip,
-        unexplained=prices.unexplained,
-        action=costs.action,
-    )
+    read = prices.of_reading(bank, runs)
+    found = segments(bank, runs, costs)
     spans = []
-    for segment, whole in zip(segments, _with_loose_ends(segments, runs), strict=True):
+    for segment, whole in zip(found, _with_loose_ends(found, runs), strict=True):
         part = slice(segment.first, segment.last)
-        distance = [
-            least_cost(automaton, read=reading[part], skip=prices.skip[part])
-            for automaton, reading in zip(automata, read, strict=True)
-        ]
+        distance = least_costs(bank, read=read[part], skip=prices.skip[part])
         nothing = float(prices.unexplained[part].sum()) - costs.action
-        nearest = sorted(range(len(names)), key=distance.__getitem__)
+        nearest = np.argsort(distance, kind="stable").tolist()
         spans.append(
             Span(
-                action=names[segment.index],
+                action=bank.names[segment.index],
                 first_run=whole.first,
                 last_run=whole.last,
                 start_s=runs[whole.first].start_s,
                 end_s=runs[whole.last - 1].end_s,
-                distance=distance[segment.index],
-                confidence=_share(segment.index, np.array([*distance, nothing]), costs.sharpness),
-                alternatives=tuple((names[i], distance[i]) for i in nearest if i != segment.index),
+                distance=float(distance[segment.index]),
+                confidence=_share(segment.index, np.append(distance, nothing), costs.sharpness),
+                alternatives=tuple(
+                    (bank.names[i], float(distance[i])) for i in nearest if i != segment.index
+                ),
             )
         )
     return tuple(spans)

@@ -2,44 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-
-import numpy as np
+from typing import TypeAlias
 
 from smd.geometry.arrays import FloatArray
-from smd.recognition.automaton import FAR, Automaton
+from smd.recognition.bank import Bank, Front
+from smd.recognition.costs import Costs, run_costs
+from smd.recognition.tokens import TokenRun
 
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """Tokens ``first`` (included) to ``last`` (excluded) are like automaton ``index``'s pattern."""
+    """Tokens ``first`` (included) to ``last`` (excluded) are like action ``index``'s pattern."""
 
     index: int
     first: int
     last: int
 
 
-def least_cost_segments(
-    automata: Sequence[Automaton],
+Segmenter: TypeAlias = Callable[[Bank, Sequence[TokenRun], Costs], tuple[Segment, ...]]
+"""Cuts runs into segments of a bank's actions, in order and without overlap."""
+
+
+def least_cost_segments(bank: Bank, runs: Sequence[TokenRun], costs: Costs) -> tuple[Segment, ...]:
+    """Cut runs into actions and unexplained rest at the least total cost (a `Segmenter`).
+
+    Every action costs ``costs.action`` and its runs' edit distance to its pattern, every run
+    outside of actions in proportion to the movement in it (`Costs`).
+    """
+    prices = run_costs(runs, costs)
+    return cheapest_cut(
+        bank,
+        read=prices.of_reading(bank, runs),
+        skip=prices.skip,
+        unexplained=prices.unexplained,
+        action=costs.action,
+    )
+
+
+def cheapest_cut(
+    bank: Bank,
     *,
-    read: Sequence[FloatArray],
+    read: FloatArray,
     skip: FloatArray,
     unexplained: FloatArray,
     action: float,
 ) -> tuple[Segment, ...]:
-    """Cut a string of n tokens into actions and unexplained tokens at the least total cost.
+    """Cut a string of n tokens into segments and unexplained tokens at the least total cost.
 
     A segment costs ``action`` and its distance to its pattern. Since both add up token by token,
     one pass over the string that carries the states of all automata is exact (Viterbi's algorithm
     [1]_); no pair of ends is tried by itself. Where several ways cost the same, less is explained,
-    then the earlier automaton is taken.
+    then the earlier action is taken.
 
     Parameters
     ----------
     read
-        For each automaton ``(n, p)``: what it costs to take token i for one that a state
-        reads.
+        ``(n, a, p)``: what it costs to take token i for one that a state reads.
     skip
         ``(n,)``, what it costs to leave token i out of a segment around it.
     unexplained
@@ -52,53 +72,26 @@ def least_cost_segments(
     .. [1] A. J. Viterbi, "Error Bounds for Convolutional Codes and an Asymptotically Optimum
        Decoding Algorithm", IEEE Transactions on Information Theory 13(2), 1967.
     """
-    if not automata:
+    if not len(bank):
         return ()
-    reading = _stacked(read)
-    enter = _stacked([one.enter for one in automata])
-    leave = _stacked([one.leave for one in automata])
-    step = _stacked([_padded(one.step, enter.shape[1]) for one in automata])
-    rows, columns = np.indices(enter.shape)
-    # Per state: the least cost of getting there, and the token at which its segment began.
-    reached = np.full(enter.shape, float(FAR))
-    start = np.zeros(enter.shape, dtype=np.int64)
+    front = bank.nowhere()
     best = 0.0
     ending: list[Segment | None] = []
-    for j in range(len(skip)):
-        ways = reached[:, :, None] + step
-        source = ways.argmin(axis=1)
-        going_on = ways[rows, source, columns]
-        entering = best + action + enter
-        arriving = np.minimum(entering, going_on) + reading[:, j]
-        skipping = reached + skip[j]
-        start_if_read = np.where(entering < going_on, j, start[rows, source])
-        start = np.where(skipping <= arriving, start, start_if_read)
-        reached = np.minimum(skipping, arriving)
-        leaving = reached + leave
-        index, position = divmod(int(leaving.argmin()), leaving.shape[1])
-        best += float(unexplained[j])
-        if leaving[index, position] < best:
-            best = float(leaving[index, position])
-            ending.append(Segment(index, int(start[index, position]), j + 1))
-        else:
-            ending.append(None)
+    prices = zip(read, skip.tolist(), unexplained.tolist(), strict=True)
+    for j, (reading, skipping, leaving) in enumerate(prices):
+        front = bank.after(front, entering=best + action, at=j, read=reading, skip=skipping)
+        best, segment = _ended(bank.leaving(front), best + leaving, j + 1)
+        ending.append(segment)
     return _traced(ending)
 
 
-def _stacked(arrays: Sequence[np.ndarray]) -> FloatArray:
-    """Stack arrays whose last axes differ in length; what is missing no way reaches."""
-    width = max(array.shape[-1] for array in arrays)
-    stack = np.full((len(arrays), *arrays[0].shape[:-1], width), float(FAR))
-    for i, array in enumerate(arrays):
-        stack[i, ..., : array.shape[-1]] = array
-    return stack
-
-
-def _padded(step: np.ndarray, p: int) -> FloatArray:
-    """Return a square matrix of p rows; from the rows added no way leads anywhere."""
-    padded = np.full((p, step.shape[1]), float(FAR))
-    padded[: len(step)] = step
-    return padded
+def _ended(ending: Front, unexplained: float, last: int) -> tuple[float, Segment | None]:
+    """Return the least cost up to a token, and the segment that ends there if it costs less."""
+    index = int(ending.cost.argmin())
+    cost = float(ending.cost[index])
+    if cost < unexplained:
+        return cost, Segment(index, int(ending.start[index]), last)
+    return unexplained, None
 
 
 def _traced(ending: Sequence[Segment | None]) -> tuple[Segment, ...]:

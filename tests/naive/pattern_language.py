@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import operator
+from collections.abc import Callable, Iterable
 from itertools import count
 
 from smd.recognition import pattern as ast
@@ -10,6 +11,8 @@ from smd.recognition.pattern import Pattern
 from smd.recognition.tokens import Token
 
 Word = tuple[Token, ...]
+Price = Callable[[Token, Token], float]
+"""What it costs to take one token for another; 1 for any other one, if not given."""
 
 
 def language(pattern: Pattern, longest: int) -> set[Word]:
@@ -42,17 +45,17 @@ def joined(left: Iterable[Word], right: Iterable[Word], longest: int) -> set[Wor
     return {word for word in both if len(word) <= longest}
 
 
-def distance_to_word(given: Word, word: Word) -> int:
+def distance_to_word(given: Word, word: Word, price: Price = operator.ne) -> float:
     """Return the edit distance to the nearest string that is ``word`` when merged.
 
     Levenshtein's table, in which a letter of the word may be met again by the next token.
     """
     m = len(word)
-    above = list(range(m + 1))
+    above: list[float] = list(range(m + 1))
     for token in given:
         row = [above[0] + 1]
         for j in range(1, m + 1):
-            differs = int(token != word[j - 1])
+            differs = price(token, word[j - 1])
             row.append(
                 min(
                     above[j] + 1,  # the token is too much
@@ -65,7 +68,7 @@ def distance_to_word(given: Word, word: Word) -> int:
     return above[m]
 
 
-def distance(given: Word, pattern: Pattern) -> int:
+def distance(given: Word, pattern: Pattern, price: Price = operator.ne) -> float:
     """Return the least distance from ``given`` to any string of the pattern.
 
     A nearest word has at most as many letters as ``given`` and, beyond those, as many as the
@@ -73,4 +76,4 @@ def distance(given: Word, pattern: Pattern) -> int:
     """
     shortest = next(n for n in count(1) if language(pattern, n))
     longest = 2 * len(given) + shortest
-    return min(distance_to_word(given, word) for word in language(pattern, longest))
+    return min(distance_to_word(given, word, price) for word in language(pattern, longest))

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from smd.recognition.automaton import Automaton, least_cost
+from smd.recognition.bank import Bank, least_costs
 
 
-def cost_of_segment(
-    automaton: Automaton, read: np.ndarray, skip: np.ndarray, first: int, last: int, action: float
-) -> float:
-    return action + least_cost(automaton, read=read[first:last], skip=skip[first:last])
+def segment_costs(
+    bank: Bank, read: np.ndarray, skip: np.ndarray, action: float
+) -> dict[tuple[int, int], np.ndarray]:
+    """Return what each action costs from each token to each later one."""
+    n = len(skip)
+    return {
+        (first, last): action + least_costs(bank, read=read[first:last], skip=skip[first:last])
+        for first in range(n)
+        for last in range(first + 1, n + 1)
+    }
 
 
-def least_total_cost(
-    automata: Sequence[Automaton],
-    read: Sequence[np.ndarray],
-    skip: np.ndarray,
-    unexplained: np.ndarray,
-    action: float,
-) -> float:
+def least_total_cost(costs: dict[tuple[int, int], np.ndarray], unexplained: np.ndarray) -> float:
     best = [0.0]
-    for last in range(1, len(skip) + 1):
+    for last in range(1, len(unexplained) + 1):
         ways = [best[last - 1] + float(unexplained[last - 1])]
-        for first in range(last):
-            for automaton, reading in zip(automata, read, strict=True):
-                cost = cost_of_segment(automaton, reading, skip, first, last, action)
-                ways.append(best[first] + cost)
+        ways += [best[first] + float(costs[first, last].min()) for first in range(last)]
         best.append(min(ways))
     return best[-1]

@@ -12,10 +12,10 @@ from smd.recognition.automaton import (
     compile_automaton,
     edit_distance,
     least_cost,
-    occurrences,
-    wrong_tokens,
+    reading,
 )
 from smd.recognition.pattern import Pattern
+from smd.recognition.token_costs import graded_costs, unit_costs
 from smd.recognition.tokens import Token
 from tests.naive.pattern_language import distance, distance_to_word
 from tests.naive.patterns_at_random import ABC, patterns
@@ -37,6 +37,10 @@ PATTERNS = [
 words = st.lists(st.sampled_from((*ABC, OTHER)), max_size=4).map(tuple)
 
 
+def price_in(token_costs):
+    return lambda a, b: float(token_costs.between([a], [b])[0, 0])
+
+
 @pytest.mark.parametrize("text", PATTERNS)
 def test_distance_is_the_naive_one_for_all_short_words(text):
     pattern = Pattern.parse(text)
@@ -49,7 +53,10 @@ def test_distance_is_the_naive_one_for_all_short_words(text):
 @settings(deadline=None, max_examples=150)
 @given(patterns(most=5), words)
 def test_distance_is_the_naive_one_for_random_patterns(pattern, word):
-    assert edit_distance(compile_automaton(pattern), word) == distance(word, pattern)
+    automaton = compile_automaton(pattern)
+    assert edit_distance(automaton, word) == distance(word, pattern)
+    graded = graded_costs()
+    assert edit_distance(automaton, word, graded) == distance(word, pattern, price_in(graded))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -92,22 +99,11 @@ def test_one_more_token_is_at_most_one_more_edit(pattern, word, at, token):
 
 
 @settings(deadline=None)
-@given(patterns(most=5), st.lists(st.sampled_from((*ABC, OTHER)), max_size=9).map(tuple))
-def test_occurrences_are_the_nearest_and_shortest_parts(pattern, word):
-    automaton = compile_automaton(pattern)
-    found = occurrences(automaton, word)
-    for end in range(len(word) + 1):
-        ways = [edit_distance(automaton, word[start:end]) for start in range(end + 1)]
-        assert found.distance[end] == min(ways)
-        assert found.start[end] == max(i for i, d in enumerate(ways) if d == min(ways))
-
-
-@settings(deadline=None)
 @given(patterns(most=5), words.filter(len), st.integers(0, 2**32 - 1))
 def test_dearer_edits_never_make_a_string_nearer(pattern, word, seed):
     automaton = compile_automaton(pattern)
     rng = np.random.default_rng(seed)
-    read = wrong_tokens(automaton, word) * 1.0
+    read = reading(automaton, word, unit_costs())
     skip = rng.uniform(0.0, 1.0, len(word))
     cost = least_cost(automaton, read=read, skip=skip)
     assert cost <= edit_distance(automaton, word)
