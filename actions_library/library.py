@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -34,6 +34,7 @@ class Library:
     actions : unique names.
     character_file : of the character, relative to the folder.
     clip_files : of each action's clip, by the action's name.
+    exemplar_files : of those actions' exemplars that have one.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Library:
     actions: tuple[Action, ...]
     character_file: str
     clip_files: Mapping[str, str]
+    exemplar_files: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names = [action.name for action in self.actions]
@@ -49,8 +51,15 @@ class Library:
                 raise LibraryError(f"{self.folder}: action {name!r} appears twice")
             if name not in self.clip_files:
                 raise LibraryError(f"{self.folder}: action {name!r}: expected a clip, found none")
+        for action in self.actions:
+            if (action.exemplar is None) == (action.name in self.exemplar_files):
+                raise LibraryError(
+                    f"{self.folder}: action {action.name!r}: expected a file for its exemplar, "
+                    "and none without one"
+                )
         object.__setattr__(self, "actions", tuple(self.actions))
-        object.__setattr__(self, "clip_files", MappingProxyType(dict(self.clip_files)))
+        for name in ("clip_files", "exemplar_files"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
     @cached_property
     def character(self) -> Character:
@@ -126,7 +135,7 @@ def write_library(
 ) -> Library:
     """Write a library's folder, in the place of one that is there, and return it.
 
-    Everything is written beside the folder and renamed into place.
+    Everything is written beside the folder and renamed into place, exemplars of the actions too.
 
     Parameters
     ----------

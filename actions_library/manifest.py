@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Mapping
 from pathlib import Path, PurePosixPath
-from typing import Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from actions_library.library import Library
 from smd.errors import LibraryError, PatternError
 from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
 
+if TYPE_CHECKING:
+    from smd.recognition.exemplar import Exemplar
+
 MANIFEST = "library.json"
-SCHEMA, VERSION = "smd.library", 1
+SCHEMA, VERSION = "smd.library", 2
 
 
 def read_manifest(folder: Path) -> Library:
@@ -36,22 +41,29 @@ def read_manifest(folder: Path) -> Library:
         raise LibraryError(f"{path}: expected JSON: {error}") from error
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         raise LibraryError(f"{path}: schema: expected {SCHEMA!r}")
-    if document.get("version") != VERSION:
-        raise LibraryError(f"{path}: version: expected {VERSION}, got {document.get('version')!r}")
+    version = document.get("version")
+    if type(version) is not int or not 1 <= version <= VERSION:
+        raise LibraryError(f"{path}: version: expected 1 to {VERSION}, got {version!r}")
     rows = _value(path, document, "actions", list)
-    actions, clip_files = [], {}
     for index, row in enumerate(rows):
         if not isinstance(row, dict):
             raise LibraryError(f"{path}: actions[{index}]: expected an object, got {row!r}")
+    for step in range(version, VERSION):
+        rows = [_UPGRADES[step](row) for row in rows]
+    actions, clip_files, exemplar_files = [], {}, {}
+    for row in rows:
         action = _action(path, row)
         actions.append(action)
         clip_files[action.name] = _file(path, row, "clip")
+        if action.exemplar is not None:
+            exemplar_files[action.name] = _file(path, row, "exemplar")
     return Library(
         name=_value(path, document, "name", str),
         folder=folder,
         actions=tuple(actions),
         character_file=_file(path, document, "character"),
         clip_files=clip_files,
+        exemplar_files=exemplar_files,
     )
 
 
@@ -71,12 +83,25 @@ def manifest_text(library: Library) -> str:
             "travels": action.travels,
             "cyclic": action.cyclic,
             "description": action.description,
+            "exemplar": library.exemplar_files.get(action.name),
+            "learned_from": list(action.learned_from),
         }
         for action in library.actions
     ]
     lines = [f" {json.dumps(key)}: {json.dumps(value)}," for key, value in head.items()]
     table = ",\n".join("  " + json.dumps(row, ensure_ascii=False) for row in rows)
     return "\n".join(["{", *lines, ' "actions": [', table, " ]", "}", ""])
+
+
+def _upgraded_1(row: dict[str, Any]) -> dict[str, Any]:
+    """Return an action of version 1, which knew patterns alone, as of version 2."""
+    return {**row, "exemplar": None, "learned_from": []}
+
+
+_UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = MappingProxyType(
+    {1: _upgraded_1}
+)
+"""From each past version to the next one."""
 
 
 def _action(path: Path, row: dict[str, Any]) -> Action:
@@ -88,18 +113,32 @@ def _action(path: Path, row: dict[str, Any]) -> Action:
         pattern = None if text is None else Pattern.parse(text)
     except PatternError as error:
         raise LibraryError(f"{path}: action {name!r}: pattern: {error}") from error
+    learned_from = _value(path, row, "learned_from", list)
+    if not all(isinstance(source, str) for source in learned_from):
+        raise LibraryError(f"{path}: action {name!r}: learned_from: expected a list of text")
     return Action(
         name=name,
         pattern=pattern,
         travels=_value(path, row, "travels", bool),
         cyclic=_value(path, row, "cyclic", bool),
         description=_value(path, row, "description", str),
+        learned_from=tuple(learned_from),
+        exemplar=_exemplar(path, row),
     )
+
+
+def _exemplar(path: Path, row: dict[str, Any]) -> Exemplar | None:
+    """Return what the action remembers of examples, read from its file."""
+    if "exemplar" in row and row["exemplar"] is None:
+        return None
+    from actions_library.exemplars import read_exemplar
+
+    return read_exemplar(path.parent / _file(path, row, "exemplar"))
 
 
 def _value(path: Path, row: dict[str, Any], key: str, kind: type) -> Any:
     """Return ``row[key]`` if it is of the type ``kind``."""
-    where = f"action {row['name']!r}: {key}" if key != "name" and "clip" in row else key
+    where = _place(row, key)
     if key not in row:
         raise LibraryError(f"{path}: {where}: expected {kind.__name__}, found no such key")
     if not isinstance(row[key], kind):
@@ -107,10 +146,17 @@ def _value(path: Path, row: dict[str, Any], key: str, kind: type) -> Any:
     return row[key]
 
 
+def _place(row: dict[str, Any], key: str) -> str:
+    """Return a key with the action whose it is; only the whole document has actions."""
+    return key if key == "name" or "actions" in row else f"action {row.get('name')!r}: {key}"
+
+
 def _file(path: Path, row: dict[str, Any], key: str) -> str:
     """Return a file's name that stays inside the library's folder."""
     name = str(_value(path, row, key, str))
     parts = PurePosixPath(name).parts
     if not parts or ".." in parts or "\\" in name or ":" in name or name.startswith("/"):
-        raise LibraryError(f"{path}: {key}: expected a file inside the folder, got {name!r}")
+        raise LibraryError(
+            f"{path}: {_place(row, key)}: expected a file inside the folder, got {name!r}"
+        )
     return name

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
 
+from actions_library.exemplars import write_exemplar
 from actions_library.library import Library
 from actions_library.manifest import MANIFEST, manifest_text, read_manifest
 from actions_library.usd_skel import (
@@ -34,7 +35,7 @@ from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError, LibraryError
 from smd.recognition.action import Action
 
-CHARACTER_FILE, CLIPS_FOLDER = "character.usdc", "clips"
+CHARACTER_FILE, CLIPS_FOLDER, EXEMPLARS_FOLDER = "character.usdc", "clips", "exemplars"
 CHARACTER_SCHEMA, CLIP_SCHEMA, VERSION = "smd.character", "smd.clip", 1
 
 _CLIP_DATA = "smd"
@@ -153,14 +154,14 @@ def write_folder(
     """Write a whole library; see `actions_library.library.write_library`."""
     if folder.exists() and not (folder / MANIFEST).is_file() and any(folder.iterdir()):
         raise LibraryError(f"{folder}: expected a library or an empty folder, found other files")
-    files = dict(
-        zip(
-            clips,
-            (f"{CLIPS_FOLDER}/{stem}.usdc" for stem in unique_identifiers(clips)),
-            strict=True,
-        )
-    )
-    library = Library(name, folder, actions, CHARACTER_FILE, files)
+    stems = dict(zip(clips, unique_identifiers(clips), strict=True))
+    files = {clip: f"{CLIPS_FOLDER}/{stem}.usdc" for clip, stem in stems.items()}
+    exemplar_files = {
+        action.name: f"{EXEMPLARS_FOLDER}/{stems.get(action.name)}.npz"
+        for action in actions
+        if action.exemplar is not None
+    }
+    library = Library(name, folder, actions, CHARACTER_FILE, files, exemplar_files)
     try:
         temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     except OSError as error:
@@ -174,6 +175,9 @@ def write_folder(
             if clip.skeleton.joints != character.skeleton.joints:
                 raise LibraryError(f"clip {action.name!r}: expected the character's skeleton")
             write_clip_file(fresh / files[action.name], clip, f"../{CHARACTER_FILE}")
+            if action.exemplar is not None:
+                (fresh / EXEMPLARS_FOLDER).mkdir(exist_ok=True)
+                write_exemplar(fresh / exemplar_files[action.name], action.exemplar)
         (fresh / MANIFEST).write_text(manifest_text(library), encoding="utf-8", newline="\n")
         _exchange(fresh, folder, temporary / "old")
     except OSError as error:

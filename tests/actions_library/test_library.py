@@ -177,16 +177,21 @@ def test_an_unknown_action_is_answered_with_those_there_are(library):
     ("change", "named"),
     [
         ({"schema": "other"}, "schema"),
-        ({"version": 2}, "version"),
+        ({"version": 3}, "version"),
+        ({"version": 0}, "version"),
+        ({"version": True}, "version"),
+        ({"version": "2"}, "version"),
         ({"name": 3}, "name"),
         ({"character": "../../etc/passwd"}, "character"),
         ({"character": "/etc/passwd"}, "character"),
         ({"character": "C:x"}, "character"),
         ({"actions": {}}, "actions"),
         ({"actions": ["walk"]}, r"actions\[0\]"),
-        ({"actions": [{"name": "walk"}]}, "clip|travels"),
+        ({"actions": [{"name": "walk"}]}, "action 'walk': .*no such key"),
         ({"actions": [{"name": "w", "pattern": "T_Q", "clip": "a"}]}, "pattern"),
         ({"actions": [{"name": "w", "pattern": 5, "clip": "a"}]}, "pattern"),
+        ({"actions": [{"name": "w", "pattern": "T_Z (", "clip": "a"}]}, r"'w'.*character 6"),
+        ({"actions": [{"name": "w", "pattern": "T_Z*", "clip": "a"}]}, r"'w'.*nothing at all"),
     ],
 )
 def test_a_wrong_entry_is_named_with_its_file(library, tmp_path, change, named):

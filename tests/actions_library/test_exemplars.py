@@ -1,0 +1,200 @@
+"""What was learned survives the way to disk, and a damaged file is named with its key."""
+
+from __future__ import annotations
+
+import io
+import json
+import pickle
+import shutil
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from actions_library.library import Library, load_library, write_library
+from smd.errors import LibraryError
+from smd.recognition.action import Action
+from smd.recognition.exemplar import Exemplar, exemplar_of
+from smd.recognition.pattern import Pattern
+from smd.recognition.traits import traits_of
+from smd.smoothing import smooth
+from smd.synthetic.strokes import simulated_person
+from smd.synthetic.takes import Take
+from tests.naive.puppet import puppet, waving_clip
+
+GOLDEN = Path(__file__).parents[1] / "golden" / "libraries"
+
+
+def an_exemplar(examples: int = 3) -> Exemplar:
+    traits = []
+    for seed in range(examples):
+        rng = np.random.default_rng(seed)
+        take = Take(simulated_person(rng), rng)
+        traits.append(traits_of(smooth(take.play("throw").doodle())))
+    return exemplar_of(traits)
+
+
+def with_exemplar(folder: Path, exemplar: Exemplar) -> Library:
+    action = Action(
+        "hurl", Pattern.parse("T_Z+ T_Y"), learned_from=("a.csv", "b.csv"), exemplar=exemplar
+    )
+    return write_library(
+        folder,
+        name="puppets",
+        character=puppet(),
+        clips={"hurl": waving_clip("hurl")},
+        actions=(action,),
+    )
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory) -> Library:
+    return with_exemplar(tmp_path_factory.mktemp("library") / "puppets", an_exemplar())
+
+
+@pytest.fixture
+def folder(library, tmp_path) -> Path:
+    return Path(shutil.copytree(library.folder, tmp_path / "copy"))
+
+
+@pytest.mark.parametrize("examples", [1, 3])
+def test_an_exemplar_survives_the_round_trip(tmp_path, examples):
+    exemplar = an_exemplar(examples)
+    action = with_exemplar(tmp_path / "a", exemplar).action("hurl")
+    assert action.learned_from == ("a.csv", "b.csv")
+    ours, theirs = exemplar.to_arrays(), action.exemplar.to_arrays()
+    assert set(ours) == set(theirs)
+    for key in ours:
+        assert np.array_equal(ours[key], theirs[key]), key
+
+
+def test_the_same_exemplar_gives_the_same_bytes(library, tmp_path):
+    again = write_library(
+        tmp_path / "again",
+        name=library.name,
+        character=library.character,
+        clips=library.clips,
+        actions=library.actions,
+    )
+    for file in ("library.json", "exemplars/hurl.npz"):
+        assert (again.folder / file).read_bytes() == (library.folder / file).read_bytes()
+
+
+def arrays_of(file: Path) -> dict[str, np.ndarray]:
+    with np.load(file, allow_pickle=False) as stored:
+        return dict(stored)
+
+
+def expect(folder: Path, *named: str) -> None:
+    with pytest.raises(LibraryError) as caught:
+        load_library(folder)
+    message = str(caught.value)
+    assert "\n" not in message
+    for part in ("hurl.npz", *named):
+        assert part in message
+
+
+@pytest.mark.parametrize("content", [b"", b"not a zip", b"PK\x03\x04 and then nothing", None])
+def test_a_file_that_is_no_npz_is_named(folder, content):
+    file = folder / "exemplars" / "hurl.npz"
+    file.unlink()
+    if content is not None:
+        file.write_bytes(content)
+    expect(folder)
+
+
+@pytest.mark.parametrize("key", ["measures", "apart", "flow_prop"])
+def test_a_missing_or_misshapen_array_is_named(folder, key):
+    file = folder / "exemplars" / "hurl.npz"
+    arrays = arrays_of(file)
+    np.savez(file, **{name: value for name, value in arrays.items() if name != key})
+    expect(folder, key)
+    np.savez(file, **{**arrays, key: np.zeros((3, 2))})
+    expect(folder, key)
+    np.savez(file, **{**arrays, key: np.full_like(arrays[key], np.nan)})
+    expect(folder, key)
+    np.savez(file, **{**arrays, key: np.array(["a"])})
+    expect(folder, key)
+
+
+def test_a_pickled_array_is_never_run(folder):
+    class Trap:
+        def __reduce__(self):
+            return Path.touch, (folder / "trapped",)
+
+    file = folder / "exemplars" / "hurl.npz"
+    arrays = arrays_of(file)
+    np.savez(file, **{**arrays, "measures": np.array([Trap()], dtype=object)})
+    expect(folder, "measures")
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("measures.npy", pickle.dumps(Trap()))
+    expect(folder, "measures")
+    assert not (folder / "trapped").exists()
+
+
+def test_a_header_that_promises_too_much_is_refused_unread(folder):
+    header = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        header, {"descr": "<f8", "fortran_order": False, "shape": (10**12, 4)}
+    )
+    file = folder / "exemplars" / "hurl.npz"
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("measures.npy", header.getvalue())
+    expect(folder, "measures", "1000000000000")
+
+
+def test_a_damaged_byte_is_noticed(folder):
+    file = folder / "exemplars" / "hurl.npz"
+    content = bytearray(file.read_bytes())
+    content[len(content) // 3] ^= 0xFF
+    file.write_bytes(content)
+    expect(folder)
+
+
+@pytest.mark.parametrize("path", ["../hurl.npz", "/etc/hurl.npz", "a/../../hurl.npz", "C:hurl"])
+def test_an_exemplar_outside_the_folder_is_refused(folder, path):
+    file = folder / "library.json"
+    document = json.loads(file.read_text(encoding="utf-8"))
+    document["actions"][0]["exemplar"] = path
+    file.write_text(json.dumps(document))
+    with pytest.raises(LibraryError, match=r"library\.json: action 'hurl': exemplar: .*inside"):
+        load_library(folder)
+
+
+@pytest.mark.parametrize("wrong", ["a.csv", [1], None])
+def test_what_it_was_learned_from_is_a_list_of_text(folder, wrong):
+    file = folder / "library.json"
+    document = json.loads(file.read_text(encoding="utf-8"))
+    document["actions"][0]["learned_from"] = wrong
+    file.write_text(json.dumps(document))
+    with pytest.raises(LibraryError, match=r"library\.json: action 'hurl': learned_from"):
+        load_library(folder)
+
+
+def test_a_library_of_version_1_still_loads():
+    library = load_library(GOLDEN / "version_1")
+    walk = library.action("walk")
+    assert (str(walk.pattern), walk.travels, walk.cyclic) == (
+        "T_Z+ (T_Y|T_Y_Z)* T_N_Y+",
+        True,
+        True,
+    )
+    assert (walk.exemplar, walk.learned_from) == (None, ())
+    assert library.clip("walk").cyclic
+
+
+def test_a_library_of_version_1_is_written_again_as_the_present_one(tmp_path):
+    old = load_library(GOLDEN / "version_1")
+    new = write_library(
+        tmp_path / "a",
+        name=old.name,
+        character=old.character,
+        clips=old.clips,
+        actions=old.actions,
+    )
+    assert new.actions == old.actions
+    document = json.loads((new.folder / "library.json").read_text(encoding="utf-8"))
+    assert document["version"] == 2
+    assert replace(new.action("walk")) == old.action("walk")
