@@ -89,7 +89,7 @@ def recognize(
     read = prices.of_reading(bank, runs)
     found = segments(bank, runs, costs)
     spans = []
-    for segment, whole in zip(found, _with_loose_ends(found, runs), strict=True):
+    for segment, whole in zip(found, with_loose_ends(found, runs), strict=True):
         part = slice(segment.first, segment.last)
         distance = least_costs(bank, read=read[part], skip=prices.skip[part])
         nothing = float(prices.unexplained[part].sum()) - costs.action
@@ -116,7 +116,7 @@ def _share(chosen: int, cost: FloatArray, sharpness: float) -> float:
     return float(1.0 / np.exp(-sharpness * (cost - cost[chosen])).sum())
 
 
-def _with_loose_ends(segments: Sequence[Segment], runs: Sequence[TokenRun]) -> list[Segment]:
+def with_loose_ends(segments: Sequence[Segment], runs: Sequence[TokenRun]) -> list[Segment]:
     """Return the segments with the unexplained runs beside them that belong to them.
 
     A hand that sets out or arrives is slow, and its direction uncertain: a run that goes the way
