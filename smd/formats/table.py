@@ -90,6 +90,7 @@ def read_table(
             converters=dict(encoders),
             quotechar='"' if delimiter else None,
             ndmin=2,
+            encoding="utf-8",  # NumPy 1 hands its converters bytes otherwise
         )
         if values.shape[1] == len(columns):
             return values
