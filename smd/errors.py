@@ -46,3 +46,14 @@ class TransferError(SmdError):
 
 class ExportError(SmdError):
     """An output that cannot be written."""
+
+
+class LearningError(SmdError):
+    """Examples from which no gesture can be learned; ``example`` is the index of the one at fault.
+
+    None where the fault is not that of one example.
+    """
+
+    def __init__(self, message: str, example: int | None = None) -> None:
+        super().__init__(message)
+        self.example = example

@@ -1,0 +1,99 @@
+"""Generalization: from the token sequences of examples to the pattern they have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from smd.recognition import pattern as ast
+from smd.recognition.pattern import Pattern
+from smd.recognition.places import Place, Stroke, laid_side_by_side, token_distance
+from smd.recognition.simplification import Group, simplified
+from smd.recognition.tokens import STILL, Token
+
+MANDATORY_SHARE = 0.2
+"""A token must occur where its movement is at least this share of the largest in its example, on
+average over the examples; less may be how a hand sets out, arrives, or rounds a corner."""
+
+ENOUGH_EXAMPLES = 3
+"""From so many examples on, what all of them have is meant, however small."""
+
+MOST_OPTIONAL = 3
+"""Optional places between two mandatory ones; more become one group that has all their tokens."""
+
+
+def generalized(examples: Sequence[Sequence[Stroke]]) -> tuple[Group, ...]:
+    """Return what all of several sequences read through, from left to right.
+
+    Section 4.3 of the paper [1]_, with one change: it pairs the mandatory tokens of the examples
+    by their index, so that one token too many in one example shifts all that follow. Here
+    sequences are laid side by side so that like tokens stand at one place. A place where every
+    example has a token, and which is more than a trifle, becomes a mandatory group of the tokens
+    that stand there; the places between become optional groups, in their order.
+
+    Parameters
+    ----------
+    examples
+        At least one, none empty. The first one is where laying side by side begins.
+
+    Returns
+    -------
+    tuple of Group
+        Accepts every example; empty if they share no place that must occur.
+
+    References
+    ----------
+    .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
+    """
+    groups: list[Group] = []
+    between: list[Group] = []
+    for place in laid_side_by_side(examples):
+        if _is_mandatory(place):
+            groups += [*_few(between), Group(place.tokens, optional=False)]
+            between = []
+        else:
+            between.append(Group(place.tokens, optional=True))
+    return simplified([*groups, *_few(between)]) if groups else ()
+
+
+def pattern_of(groups: Sequence[Group]) -> Pattern:
+    """Return groups, one mandatory at least, as a pattern."""
+    parts = []
+    for group in groups:
+        tokens = sorted(group.tokens, key=_plain_first)
+        parts.append(ast.Repeat(ast.Choice(tuple(tokens)), optional=group.optional))
+    return Pattern(ast.Sequence(tuple(parts)))
+
+
+def odd_one_out(examples: Sequence[Sequence[Stroke]]) -> int:
+    """Return the example whose largest movement is least like those of the others."""
+    main = [main_token(strokes) for strokes in examples]
+    far = [sum(token_distance(token, other) for other in main) for token in main]
+    return int(np.argmax(far))
+
+
+def main_token(strokes: Sequence[Stroke]) -> Token:
+    """Return the token of a sequence's largest movement."""
+    return max(strokes, key=lambda stroke: stroke.weight).token
+
+
+def _is_mandatory(place: Place) -> bool:
+    """Tell whether what stands at a place must occur."""
+    if not place.is_full or STILL in place.tokens:
+        return False
+    agreed = len(place.tokens) == 1 and len(place.strokes) >= ENOUGH_EXAMPLES
+    return agreed or place.weight >= MANDATORY_SHARE
+
+
+def _few(optional: list[Group]) -> list[Group]:
+    """Return optional groups, all in one if they are many."""
+    optional = list(simplified(optional))
+    if len(optional) <= MOST_OPTIONAL:
+        return optional
+    return [Group(frozenset().union(*(group.tokens for group in optional)), optional=True)]
+
+
+def _plain_first(token: Token) -> tuple[int, Token]:
+    """Sort tokens along few axes first, for reading."""
+    return sum(map(abs, (*token.translation, *token.rotation))), token

@@ -1,0 +1,91 @@
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from smd.recognition.places import Stroke, laid_side_by_side, token_distance
+from smd.recognition.tokenizer import DIRECTIONS
+from smd.recognition.tokens import STILL, Token
+
+TOKENS = tuple(map(Token.parse, ("T_Z", "T_Y_Z", "T_Y", "R_Y", "T_Z/R_Y", "STILL")))
+strokes = st.builds(Stroke, st.sampled_from(TOKENS), st.floats(0.02, 1.0))
+sequences = st.lists(st.lists(strokes, min_size=1, max_size=7), min_size=1, max_size=5)
+
+
+def of(text):
+    return [Stroke(Token.parse(name), 1.0) for name in text.split()]
+
+
+def names(place):
+    return [str(stroke.token) if stroke else "-" for stroke in place.strokes]
+
+
+@settings(max_examples=200, deadline=None)
+@given(sequences)
+def test_every_sequence_reads_through_the_places_from_left_to_right(given):
+    places = laid_side_by_side(given)
+    for i, sequence in enumerate(given):
+        assert [place.strokes[i] for place in places if place.strokes[i]] == sequence
+    assert all(any(place.strokes) for place in places)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(strokes, min_size=1, max_size=7), st.integers(1, 4))
+def test_equal_sequences_share_every_place(sequence, count):
+    places = laid_side_by_side([sequence] * count)
+    assert [place.strokes for place in places] == [(stroke,) * count for stroke in sequence]
+
+
+def test_one_token_too_many_shifts_nothing():
+    places = laid_side_by_side([of("T_Z T_N_Z T_Y"), of("T_X T_Z T_N_Z T_Y"), of("T_Z T_Y")])
+    assert [names(place) for place in places] == [
+        ["-", "T_X", "-"],
+        ["T_Z", "T_Z", "T_Z"],
+        ["T_N_Z", "T_N_Z", "-"],
+        ["T_Y", "T_Y", "T_Y"],
+    ]
+
+
+def test_neighbouring_directions_share_a_place_and_opposite_ones_do_not():
+    near = laid_side_by_side([of("T_Z T_N_Y"), of("T_Y_Z T_N_Y")])
+    assert [names(place) for place in near] == [["T_Z", "T_Y_Z"], ["T_N_Y", "T_N_Y"]]
+    far = laid_side_by_side([of("T_Z"), of("T_N_Z")])
+    assert all(None in place.strokes for place in far)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.lists(strokes, min_size=1, max_size=5), min_size=2, max_size=2))
+def test_tokens_that_are_unlike_never_share_a_place(pair):
+    for place in laid_side_by_side(pair):
+        for a, b in combinations((stroke.token for stroke in place.strokes if stroke), 2):
+            assert token_distance(a, b) < 1.0
+
+
+def test_the_distance_of_tokens_is_a_right_angle_at_most():
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        a, b = (Token(*(DIRECTIONS[i] for i in rng.integers(0, 27, 2))) for _ in range(2))
+        assert 0.0 <= token_distance(a, b) <= 1.0
+        assert token_distance(a, b) == token_distance(b, a)
+        assert (token_distance(a, b) == 0.0) == (a == b)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "expected"),
+    [
+        ("T_Z", "T_Y_Z", 0.5),
+        ("T_Z", "T_Y", 1.0),
+        ("T_Z", "T_N_Z", 1.0),
+        ("T_Z", "R_Z", 1.0),
+        ("T_Z", "T_Z/R_Y", 0.5),
+        ("T_Z/R_Y", "T_Y_Z/R_Y", 0.25),
+        ("T_Z", "STILL", 1.0),
+    ],
+)
+def test_known_distances(a, b, expected):
+    assert token_distance(Token.parse(a), Token.parse(b)) == pytest.approx(expected)
+    assert token_distance(STILL, STILL) == 0.0
