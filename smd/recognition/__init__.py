@@ -1,1 +1,20 @@
-"""From a doodle to spans of actions: tokens, patterns, automata, segmentation."""
+"""From a doodle to spans of actions: tokens, patterns, automata, verification."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from smd.recognition.spotting import Match as Match
+    from smd.recognition.spotting import Recognizer as Recognizer
+    from smd.recognition.spotting import learn_action as learn_action
+
+__all__ = ["Match", "Recognizer", "learn_action"]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a name when it is first asked for: importing the package stays light."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module("smd.recognition.spotting"), name)

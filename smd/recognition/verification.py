@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,41 +11,101 @@ from smd.geometry.arrays import FloatArray
 from smd.recognition.exemplar import Exemplar, nearest_distances
 from smd.recognition.traits import COURSES, MEASURES, Traits
 
-TERMS = (*COURSES, *MEASURES)
+TERMS = ("tokens", *COURSES, *MEASURES)
+"""What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
 
-WEIGHTS: Mapping[str, float] = MappingProxyType(
-    dict(zip(TERMS, (5.6, 0.3, 2.2, 1.1, 0.9, 0.6, 0.4, 0.2), strict=True))
-)
+WEIGHTS = np.array([1.0, 5.0, 0.5, 2.9, 1.7, 0.6, 0.8, 0.2, 0.3])
+"""What each term counts, fitted by maximum likelihood (``docs/verification.md``)."""
+WEIGHTS.flags.writeable = False
+
+USUAL_COST = 8.0
+"""Of an example, weighed against the others of its action: in the middle between what simulated
+people (4) and people who wave their hands before a camera (10) do."""
+
+PRIOR_COSTS = 3.0
+"""How many examples the usual cost counts for, in a library's threshold and in an action's."""
+
+SLACK, SLACK_SHARE = 5.0, 1.6
+"""A gesture is rejected where it costs more than this, and so many times an example's cost."""
+
 _FREEDOM = 4.0
-"""Of Student's distribution, which measures are taken to follow: twice the usual size is unusual,
-four times the usual size is little more so."""
+"""Of Student's distribution, which measures are taken to follow: what is far out is hardly more
+unlikely than what is out."""
 
 
-def terms_of(gesture: Traits, exemplar: Exemplar) -> FloatArray:
-    """Return ``(8,)``, how unlike a gesture is an action's examples, in the order of `TERMS`.
+@dataclass(frozen=True, slots=True, eq=False)
+class Verifier:
+    """What a gesture must be like to be one of an action's.
 
-    A course's term is its distance to the nearest example, as a multiple of what is usual; a
-    measure's is the negative logarithm of Student's density about the examples' mean, against a
-    measure of usual spread.
+    Attributes
+    ----------
+    exemplar : of the action's examples.
+    limit : the cost above which a gesture is rejected.
     """
-    far = nearest_distances(gesture, exemplar.courses) / exemplar.scale
-    squares = np.square((gesture.measures - exemplar.centre) / exemplar.spread)
-    return np.concatenate([far, _oddness(squares)])
+
+    exemplar: Exemplar
+    limit: float
+
+    def terms(self, gesture: Traits, wrong: float) -> FloatArray:
+        """Return ``(9,)``, how unlike the action a gesture is, in the order of `TERMS`.
+
+        A course's term is its distance to the nearest example, as a multiple of what is usual; a
+        measure's is the negative logarithm of Student's density about the examples' mean, 0 at
+        its peak; the tokens' is ``wrong``, the edits from the pattern as a share of the tokens.
+        """
+        own = self.exemplar
+        far = nearest_distances(gesture, own.courses) / own.scale
+        return np.concatenate([[wrong], far, self._odd(gesture)])
+
+    def cost(self, gesture: Traits, wrong: float) -> float:
+        """Return the weighed sum of the terms; `inf` where it is above the limit for certain."""
+        measured = WEIGHTS[0] * wrong + float(WEIGHTS[5:] @ self._odd(gesture))
+        if measured > self.limit:
+            return float("inf")  # no term is negative: aligning would only add to it
+        return float(WEIGHTS @ self.terms(gesture, wrong))
+
+    def _odd(self, gesture: Traits) -> FloatArray:
+        own = self.exemplar
+        return _oddness((gesture.measures - own.centre) / own.spread)
 
 
-def left_out_terms(exemplar: Exemplar) -> FloatArray:
-    """Return ``(n, 8)``: the terms of each example against the others; none where n is 1.
+def verifiers(exemplars: Sequence[Exemplar | None]) -> tuple[Verifier | None, ...]:
+    """Return a verifier for each action of a library; None for one that has no examples.
 
-    The scales and spreads are those of all examples, whose prior outweighs a single one.
+    The limit follows from what examples cost when each is left out in turn: of the action, pooled
+    with those of the whole library, which say how alike this user's gestures are, and with a
+    usual cost, all as means of logarithms.
+    """
+    own = [_left_out_costs(one) if one else np.zeros(0) for one in exemplars]
+    library = _pooled(np.concatenate([np.zeros(0), *own]), USUAL_COST)
+    return tuple(
+        Verifier(one, SLACK + SLACK_SHARE * _pooled(costs, library)) if one else None
+        for one, costs in zip(exemplars, own, strict=True)
+    )
+
+
+def _left_out_costs(exemplar: Exemplar) -> FloatArray:
+    """Return ``(n,)``: what each example costs against the others; nothing where n is 1.
+
+    The scales and spreads are those of all examples; a broad prior outweighs a single one.
     """
     n = len(exemplar.apart)
     if n == 0:
-        return np.zeros((0, len(TERMS)))
+        return np.zeros(0)
     others = (exemplar.measures.sum(axis=0) - exemplar.measures) / (n - 1)
-    squares = np.square((exemplar.measures - others) / exemplar.spread)
-    return np.hstack([exemplar.apart / exemplar.scale, _oddness(squares)])
+    odd = _oddness((exemplar.measures - others) / exemplar.spread)
+    terms = np.hstack([np.zeros((n, 1)), exemplar.apart / exemplar.scale, odd])
+    return np.asarray(terms @ WEIGHTS)
 
 
-def _oddness(squares: FloatArray) -> FloatArray:
+def _pooled(costs: FloatArray, prior: float) -> float:
+    """Return the geometric mean of costs, and of a prior that counts for a few more."""
+    # Of many examples of many people the nearest is near, which is why no more than 30 count.
+    count = min(len(costs), 30)
+    mean = float(np.log(costs + 0.1).mean()) if count else 0.0
+    return float(np.exp((PRIOR_COSTS * np.log(prior) + count * mean) / (PRIOR_COSTS + count)))
+
+
+def _oddness(deviation: FloatArray) -> FloatArray:
     """Return the negative logarithm of Student's density, 0 at its peak."""
-    return 0.5 * (_FREEDOM + 1.0) * np.log1p(squares / _FREEDOM)
+    return 0.5 * (_FREEDOM + 1.0) * np.log1p(np.square(deviation) / _FREEDOM)

@@ -1,0 +1,74 @@
+"""Proposals: stretches of a doodle that may be an action, as the automata see them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from smd.geometry.arrays import FloatArray
+from smd.recognition.bank import Bank, least_costs
+from smd.recognition.costs import RunCosts
+from smd.recognition.tokens import TokenRun
+
+
+MOST_STROKES = 4
+"""How many strokes, with rests between them, one gesture has at most (a bow that is held has 2)."""
+
+
+class Proposal(NamedTuple):
+    """Runs ``first`` (included) to ``last`` (excluded) may be action ``action`` of a bank.
+
+    ``distance`` is what it costs to read them so, in edits.
+    """
+
+    action: int
+    first: int
+    last: int
+    distance: float
+
+
+def explaining(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> list[Proposal]:
+    """Return, for each action and each end, the stretch that explains most.
+
+    One pass over the runs carries the states of all automata. A stretch explains what its runs
+    would cost if they were left unexplained, less what it costs to read them as the action; only
+    those that explain anything are proposed.
+    """
+    found: list[Proposal] = []
+    if not len(bank):
+        return found
+    unexplained = np.concatenate([[0.0], np.cumsum(prices.unexplained)])
+    front = bank.nowhere()
+    reading: FloatArray = prices.of_reading(bank, runs)
+    for j, (read, skip) in enumerate(zip(reading, prices.skip.tolist(), strict=True)):
+        before, after = float(unexplained[j]), float(unexplained[j + 1])
+        front = bank.after(front, entering=before, at=j, read=read, skip=skip)
+        if prices.is_still[j]:
+            continue
+        cost, start = bank.leaving(front)
+        for index in np.flatnonzero(cost < after - 1e-9).tolist():
+            first = int(start[index])
+            distance = float(cost[index] - unexplained[first])
+            found.append(Proposal(index, first, j + 1, max(distance, 0.0)))
+    return found
+
+
+def between_rests(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> list[Proposal]:
+    """Return, for every action, each stretch from one rest to another, a few strokes long.
+
+    A pattern learned from three examples does not know all ways to draw its action, and where
+    they fall short, a rest still tells where a gesture begins and ends.
+    """
+    read = prices.of_reading(bank, runs)
+    moving = ~np.asarray(prices.is_still)
+    steps = np.diff(moving.astype(np.int8), prepend=0, append=0)
+    firsts, lasts = np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()
+    found: list[Proposal] = []
+    for i, first in enumerate(firsts):
+        for last in lasts[i : i + MOST_STROKES]:
+            part = slice(first, last)
+            distance = least_costs(bank, read=read[part], skip=prices.skip[part])
+            found += [Proposal(a, first, last, d) for a, d in enumerate(distance.tolist())]
+    return found
