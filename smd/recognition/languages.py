@@ -6,15 +6,16 @@ equal neighbours, since the repetition of a token does not matter.
 
 from __future__ import annotations
 
+import operator
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 
 from smd.geometry.arrays import BoolArray
-from smd.recognition import pattern as ast
 from smd.recognition.automaton import compile_automaton
 from smd.recognition.pattern import Pattern, merged
 from smd.recognition.tokens import Token
@@ -37,7 +38,13 @@ class NearestWords:
     second: Word
 
 
-def nearest_words(a: Pattern, b: Pattern, *, most: int) -> NearestWords | None:
+def nearest_words(
+    a: Pattern,
+    b: Pattern,
+    *,
+    most: int,
+    replaceable: Callable[[Token, Token], bool] = lambda ours, theirs: True,
+) -> NearestWords | None:
     """Return the least edit distance between any string of one pattern and any of the other.
 
     An edit inserts, deletes or replaces a token. Either string may repeat its tokens before it is
@@ -48,13 +55,15 @@ def nearest_words(a: Pattern, b: Pattern, *, most: int) -> NearestWords | None:
     ----------
     most
         How far to look, in edits.
+    replaceable
+        Whether one edit replaces a token by another; if not, it takes two.
 
     Returns
     -------
     NearestWords or None
         None if they are further apart. Strings of distance 0 are the shortest ones.
     """
-    return _nearest(_walk(a), _walk(b), most)
+    return _nearest(_walk(a), _walk(b), most, replaceable)
 
 
 def shared_word(a: Pattern, b: Pattern) -> Word | None:
@@ -86,42 +95,18 @@ def extra_word(a: Pattern, b: Pattern) -> Word | None:
     .. [1] M. De Wulf et al., "Antichains: A New Algorithm for Checking Universality of Finite
        Automata", CAV 2006.
     """
-    ours, theirs = _walk(a), _walk(b)
-    step = [_bits(row) for row in theirs.step]
-    leave = _bits(theirs.leave)
-    readers = {token: _bits(column) for token, column in theirs.readers().items()}
-    ways = [
-        [
-            (int(s), token)
-            for s in np.flatnonzero(row)
-            for token in sorted(ours.reads[s], key=_plain)
-        ]
-        for row in ours.step
-    ]
-    start = len(ways) - 1
-    followed: list[list[int]] = [[] for _ in ways]
-    queue: deque[tuple[int, int, Word]] = deque([(start, 1 << (len(step) - 1), ())])
-    while queue:
-        state, others, word = queue.popleft()
-        if ours.leave[state] and not others & leave:
-            return word
-        after = 0
-        for other in _states(others):
-            after |= step[other]
-        for there, token in ways[state]:
-            if word and token == word[-1]:
-                continue
-            left = after & readers.get(token, 0)
-            if not any(known & left == known for known in followed[there]):
-                followed[there].append(left)
-                queue.append((there, left, (*word, token)))
-    return None
+    return _extra(_walk(a), _walk(b))
 
 
 def word_without(a: Pattern, part: Pattern) -> Word | None:
     """Return the shortest string of ``a`` with none of ``part`` inside; None if all have one."""
-    anything = ast.Repeat(ast.Choice(a.tokens()), optional=True)
-    return extra_word(a, Pattern(ast.Sequence((anything, part.root, anything))))
+    return _extra(_walk(a), _around(_walk(part), a))
+
+
+def holding_word(a: Pattern, part: Pattern) -> Word | None:
+    """Return the shortest string of ``a`` with one of ``part`` inside; None if none has."""
+    found = _nearest(_walk(a), _around(_walk(part), a), 0)
+    return found.first if found else None
 
 
 def same_language(a: Pattern, b: Pattern) -> bool:
@@ -164,20 +149,81 @@ def _walk(pattern: Pattern) -> _Walk:
     return _Walk((*automaton.tokens, frozenset()), step, np.append(automaton.leave == 0, False))
 
 
-def _nearest(a: _Walk, b: _Walk, most: int) -> NearestWords | None:
+def _extra(ours: _Walk, theirs: _Walk) -> Word | None:
+    """Return the shortest string of one walk that is none of the other."""
+    step = [_bits(row) for row in theirs.step]
+    leave = _bits(theirs.leave)
+    readers = {token: _bits(column) for token, column in theirs.readers().items()}
+    ways = [
+        [
+            (int(s), token)
+            for s in np.flatnonzero(row)
+            for token in sorted(ours.reads[s], key=_plain)
+        ]
+        for row in ours.step
+    ]
+    start = len(ways) - 1
+    followed: list[list[int]] = [[] for _ in ways]
+    queue: deque[tuple[int, int, Word]] = deque([(start, 1 << (len(step) - 1), ())])
+    while queue:
+        state, others, word = queue.popleft()
+        if ours.leave[state] and not others & leave:
+            return word
+        after = 0
+        for other in _states(others):
+            after |= step[other]
+        for there, token in ways[state]:
+            if word and token == word[-1]:
+                continue
+            left = after & readers.get(token, 0)
+            if not any(known & left == known for known in followed[there]):
+                followed[there].append(left)
+                queue.append((there, left, (*word, token)))
+    return None
+
+
+def _around(inner: _Walk, a: Pattern) -> _Walk:
+    """Return the walk of all strings of a pattern's tokens with a string of ``inner`` inside."""
+    p = len(inner.reads)
+    # Any tokens before and after: state p reads on until the part begins, p + 1 once it has ended.
+    step = np.zeros((p + 2, p + 2), bool)
+    step[: p - 1, : p - 1] = inner.step[:-1, :-1]
+    step[p - 1 : p + 1, : p - 1] = inner.step[-1, :-1]
+    step[p - 1 : p + 1, p] = True
+    step[: p - 1, p + 1] = inner.leave[:-1]
+    step[p + 1, p + 1] = True
+    any_token = frozenset(a.tokens())
+    reads = (*inner.reads, any_token, any_token)
+    leave = np.append(inner.leave, [False, True])
+    order = [*range(p - 1), p, p + 1, p - 1]  # the start comes last
+    return _Walk(tuple(reads[i] for i in order), step[np.ix_(order, order)], leave[order])
+
+
+def _nearest(
+    a: _Walk,
+    b: _Walk,
+    most: int,
+    replaceable: Callable[[Token, Token], bool] = operator.eq,
+) -> NearestWords | None:
     """Return the nearest strings of two walks, at most ``most`` edits apart."""
     step_a, step_b = a.step.astype(np.float32), b.step.astype(np.float32)
     readers_a, readers_b = a.readers(), b.readers()
-    alike = np.zeros((len(a.reads), len(b.reads)), bool)
+    alike, like = np.zeros((2, len(a.reads), len(b.reads)), bool)
     for token in readers_a.keys() & readers_b.keys():
         alike |= readers_a[token][:, None] & readers_b[token]
+    if most:
+        for ours, theirs in product(readers_a, readers_b):
+            if replaceable(ours, theirs):
+                like |= readers_a[ours][:, None] & readers_b[theirs]
     goal = a.leave[:, None] & b.leave
     reached = a.is_start[:, None] & b.is_start
     layers = [reached]
     for distance in range(most + 1):
         while True:
             if (reached & goal).any():
-                first, second = _traced(a, b, alike, layers, np.argwhere(reached & goal)[0])
+                first, second = _traced(
+                    a, b, (alike, like), replaceable, layers, np.argwhere(reached & goal)[0]
+                )
                 return NearestWords(distance, first, second)
             more = reached | (_stepped(reached, step_a, step_b) & alike)
             if (more == reached).all():
@@ -186,8 +232,8 @@ def _nearest(a: _Walk, b: _Walk, most: int) -> NearestWords | None:
             layers.append(reached)
         if distance < most:
             now = reached.astype(np.float32)
-            either = _stepped(reached, step_a, step_b) | (step_a.T @ now > 0) | (now @ step_b > 0)
-            reached = reached | either
+            replaced = _stepped(reached, step_a, step_b) & like
+            reached = reached | replaced | (step_a.T @ now > 0) | (now @ step_b > 0)
             layers.append(reached)
     return None
 
@@ -198,19 +244,30 @@ def _stepped(reached: BoolArray, step_a: np.ndarray, step_b: np.ndarray) -> Bool
 
 
 def _traced(
-    a: _Walk, b: _Walk, alike: BoolArray, layers: list[BoolArray], end: np.ndarray
+    a: _Walk,
+    b: _Walk,
+    pairs: tuple[BoolArray, BoolArray],
+    replaceable: Callable[[Token, Token], bool],
+    layers: list[BoolArray],
+    end: np.ndarray,
 ) -> tuple[Word, Word]:
     """Return the strings of a way back from a pair of states to the two starts."""
+    alike, like = pairs
     p, q = (int(state) for state in end)
     first: list[Token] = []
     second: list[Token] = []
     while layer := next(k for k, reached in enumerate(layers) if reached[p, q]):
         before = layers[layer - 1]
         both = before & a.step[:, p, None] & b.step[:, q]
-        if both.any():
-            common = a.reads[p] & b.reads[q] if alike[p, q] else frozenset()
-            first.append(min(common or a.reads[p], key=_plain))
-            second.append(min(common or b.reads[q], key=_plain))
+        if both.any() and (alike | like)[p, q]:
+            common = [(token, token) for token in a.reads[p] & b.reads[q]] or [
+                (ours, theirs)
+                for ours, theirs in product(a.reads[p], b.reads[q])
+                if replaceable(ours, theirs)
+            ]
+            ours, theirs = min(common, key=lambda pair: (_plain(pair[0]), _plain(pair[1])))
+            first.append(ours)
+            second.append(theirs)
             p, q = (int(state) for state in np.argwhere(both)[0])
         elif (alone := before[:, q] & a.step[:, p]).any():
             first.append(min(a.reads[p], key=_plain))

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import operator
 from itertools import product
 
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 from smd.recognition.automaton import compile_automaton, edit_distance
 from smd.recognition.languages import (
     extra_word,
+    holding_word,
     inner_word,
     nearest_words,
     same_language,
@@ -89,6 +91,20 @@ def test_the_inner_word_is_a_shortest_that_lies_in_a_string_of_the_other(a, b):
 
 @some
 @given(patterns(), patterns())
+def test_the_holding_word_is_a_shortest_with_a_string_of_the_other_inside(a, b):
+    parts = language(b, LONGEST)
+    wholes = {w for w in language(a, LONGEST) if any(inside(part, w) for part in parts)}
+    found = holding_word(a, b)
+    if found is None:
+        assert not wholes
+    else:
+        assert accepts(a, found)
+        assert len(found) == (shortest(wholes) or len(found))
+        assert found in wholes or len(found) > LONGEST
+
+
+@some
+@given(patterns(), patterns())
 def test_the_word_without_is_a_shortest_with_no_string_of_the_other_inside(a, b):
     parts = language(b, LONGEST)
     free = {w for w in language(a, LONGEST) if not any(inside(part, w) for part in parts)}
@@ -111,6 +127,31 @@ def test_the_nearest_words_are_as_near_as_any(a, b):
     assert found.distance == tried
     assert accepts(a, found.first)
     assert accepts(b, found.second)
+
+
+@settings(some, max_examples=40)
+@given(patterns(most=3), patterns(most=3))
+def test_replacing_what_may_not_be_replaced_takes_two_edits(a, b):
+    """Then only what is left out and put in counts: the longest common string of unmerged ones."""
+    found = nearest_words(a, b, most=3, replaceable=operator.eq)
+    left = [w for n in range(1, 5) for w in product(ABC, repeat=n) if accepts(a, merged(w))]
+    right = [w for n in range(1, 5) for w in product(ABC, repeat=n) if accepts(b, merged(w))]
+    tried = min((len(v) + len(w) - 2 * common(v, w) for v, w in product(left, right)), default=9)
+    if found is None:
+        assert tried > 3
+    else:
+        assert found.distance == tried
+
+
+def common(v, w):
+    """Length of the longest common subsequence."""
+    above = [0] * (len(w) + 1)
+    for a in v:
+        row = [0]
+        for j, b in enumerate(w):
+            row.append(above[j] + 1 if a == b else max(row[j], above[j + 1]))
+        above = row
+    return above[-1]
 
 
 @some
