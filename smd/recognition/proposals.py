@@ -12,7 +12,6 @@ from smd.recognition.bank import Bank, least_costs
 from smd.recognition.costs import RunCosts
 from smd.recognition.tokens import TokenRun
 
-
 MOST_STROKES = 4
 """How many strokes, with rests between them, one gesture has at most (a bow that is held has 2)."""
 

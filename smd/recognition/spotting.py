@@ -10,7 +10,6 @@ import numpy as np
 
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
-from smd.errors import DoodleError, LearningError
 from smd.geometry.arrays import FloatArray
 from smd.recognition.action import Action
 from smd.recognition.bank import compile_library, least_costs
@@ -24,7 +23,7 @@ from smd.recognition.segmentation import Segment
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import Traits, traits_of
-from smd.recognition.verification import TERMS, WEIGHTS, Verifier, verifiers
+from smd.recognition.verification import TERMS, WEIGHTS, verifiers
 from smd.smoothing import smooth
 
 UNVERIFIED = 4.0
@@ -171,7 +170,7 @@ class Recognizer:
         prices = run_costs(runs, self._costs)
         movement = _movement(runs, prices)
         explained = np.concatenate([[0.0], np.cumsum(movement)])
-        weighed: dict[tuple[int, int], Traits | None] = {}
+        weighed: dict[tuple[int, int], Traits] = {}
         accepted: list[tuple[Proposal, float]] = []
         proposed = explaining(self._bank, runs, prices)
         if any(self._verifiers):
@@ -201,7 +200,7 @@ class Recognizer:
         proposal: Proposal,
         motion: RigidMotion,
         runs: Sequence[TokenRun],
-        weighed: dict[tuple[int, int], Traits | None],
+        weighed: dict[tuple[int, int], Traits],
     ) -> float:
         """Return what a proposal costs; `inf` if it is rejected."""
         verifier = self._verifiers[proposal.action]
