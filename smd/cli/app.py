@@ -7,7 +7,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from smd.cli import animate, calibrate, convert, demo, laban, library, parse, render
+from smd.cli import animate, calibrate, convert, demo, laban, learn, library, parse, render
 
 app = typer.Typer(
     name="smd",
@@ -33,6 +33,7 @@ app.command()(convert.convert)
 app.command()(parse.parse)
 app.command()(animate.animate)
 app.command()(render.render)
+app.command()(learn.learn)
 app.command()(calibrate.calibrate)
 app.add_typer(library.app, name="library", help="What can be performed.")
 app.add_typer(laban.app, name="laban", help="Read and train Laban Effort.")

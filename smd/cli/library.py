@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated
+import sys
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from smd.cli import reading
+
+if TYPE_CHECKING:
+    from smd.recognition.action import Action
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -42,9 +47,60 @@ def list_(
         typer.echo(json.dumps(rows, indent=1))
         return
     for action in actions:
-        manner = "travels" if action.travels else "in place"
-        typer.echo(f"{action.name}  ({manner}{', cyclic' if action.cyclic else ''})")
-        if action.description:
-            typer.echo(f"    {action.description}")
-        if action.pattern:
-            typer.echo(f"    {action.pattern}")
+        typer.echo("\n".join(_lines(action)))
+
+
+@app.command()
+def show(
+    action: Annotated[str, typer.Argument(metavar="ACTION", help="The action's name.")],
+    library: reading.LibraryFolder = None,
+) -> None:
+    """Show an action: its gesture, its clip, and what it was learned from."""
+    import smd
+
+    shelf = smd.load_library(library)
+    known = shelf.action(action)
+    typer.echo("\n".join(_lines(known)))
+    typer.echo(f"    clip: {shelf.clip_files[action]}")
+    if known.exemplar is not None:
+        examples = reading.count(len(known.exemplar), "example")
+        typer.echo(f"    verified against {examples}: {shelf.exemplar_files[action]}")
+    if known.learned_from:
+        typer.echo(f"    learned from: {', '.join(known.learned_from)}")
+    elif known.pattern is not None:
+        typer.echo("    written by hand")
+
+
+@app.command()
+def check(library: reading.LibraryFolder = None) -> None:
+    """Read all of a library's files, and warn of gestures that are too much alike.
+
+    Exit code 3 if anything is broken; warnings alone are no failure.
+    """
+    import smd
+    from actions_library.checking import check_library
+
+    shelf = smd.load_library(library)
+    found = check_library(shelf)
+    for line in found.warnings:
+        typer.echo(f"warning: {line}")
+    for line in found.faults:
+        print(f"smd: {line}", file=sys.stderr)
+    counts = [
+        reading.count(len(shelf.actions), "action"),
+        reading.count(len(found.faults), "fault"),
+        reading.count(len(found.warnings), "warning"),
+    ]
+    typer.echo(f"{shelf.folder}: {', '.join(counts)}")
+    if found.faults:
+        raise typer.Exit(3)
+
+
+def _lines(action: Action) -> Iterator[str]:
+    """Yield what an action does and how it is drawn."""
+    manner = "travels" if action.travels else "in place"
+    yield f"{action.name}  ({manner}{', cyclic' if action.cyclic else ''})"
+    if action.description:
+        yield f"    {action.description}"
+    if action.pattern:
+        yield f"    {action.pattern}"

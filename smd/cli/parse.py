@@ -25,6 +25,9 @@ def parse(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the Score as JSON and nothing else.")
     ] = False,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Print what each phrase was weighed by.")
+    ] = False,
     library: reading.LibraryFolder = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     device: reading.Device = None,
@@ -58,6 +61,10 @@ def parse(
         if not as_json:
             typer.echo(f"{file}: {reading.summary(recording, score)}")
             typer.echo("\n".join(table(score)))
+            if explain:
+                from smd.cli.explain import explanation
+
+                typer.echo("\n".join(explanation(score, recording, shelf)))
             if outputs:
                 typer.echo(f"written: {outputs[index]}")
 

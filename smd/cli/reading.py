@@ -160,14 +160,15 @@ def summary(recording: Recording, score: Score) -> str:
     end_s = max(doodle.time_s[-1] for doodle in recording.doodles)
     devices = ", ".join(part.device for part in score.performers)
     parts = [f"{end_s - start_s:.1f} s, {devices}"]
-    parts.append(_count(sum(len(part.phrases) for part in score.performers), "phrase"))
+    parts.append(count(sum(len(part.phrases) for part in score.performers), "phrase"))
     if recording.dropouts:
         split = sum(not dropout.bridged for dropout in recording.dropouts)
-        parts.append(f"{_count(len(recording.dropouts), 'dropout')} ({split} over 0.25 s)")
+        parts.append(f"{count(len(recording.dropouts), 'dropout')} ({split} over 0.25 s)")
     return ", ".join(parts)
 
 
-def _count(number: int, noun: str) -> str:
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun: 1 phrase, 2 phrases."""
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 

@@ -1,0 +1,63 @@
+"""Checking: whether a library is whole, and what in it will surprise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from actions_library.library import IDLE, Library
+from actions_library.storage import read_clip_file
+from smd.errors import LibraryError
+from smd.recognition.collisions import collisions
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a check of a library found.
+
+    Attributes
+    ----------
+    faults : what is broken; such a library cannot be performed with.
+    warnings : what works, but perhaps not as meant.
+    """
+
+    faults: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def check_library(library: Library) -> Findings:
+    """Read every file of a library and compare its parts; one line a finding."""
+    return Findings(tuple(_faults(library)), tuple(_warnings(library)))
+
+
+def _faults(library: Library) -> Iterator[str]:
+    """Yield what is missing, damaged or does not fit."""
+    try:
+        skeleton = library.character.skeleton
+    except LibraryError as error:
+        yield str(error)
+        return
+    for action in library.actions:
+        file = library.clip_files[action.name]
+        try:
+            read_clip_file(library.folder / file, action.name, skeleton)
+        except LibraryError as error:
+            yield f"action {action.name!r}: {error}"
+
+
+def _warnings(library: Library) -> Iterator[str]:
+    """Yield what will surprise."""
+    drawn = [action.name for action in library.actions if action.pattern is not None]
+    if not drawn:
+        yield f"{library.folder}: no action has a pattern: nothing will be recognised"
+    if IDLE not in {action.name for action in library.actions}:
+        yield (
+            f"{library.folder}: no action {IDLE!r}, which is played where nothing is drawn: "
+            "recordings can be parsed, but not animated"
+        )
+    for action in library.actions:
+        if action.pattern is None and action.name != IDLE:
+            yield f"action {action.name!r}: no pattern: it will not be recognised"
+    patterns = {action.name: action.pattern for action in library.actions if action.pattern}
+    for collision in collisions(patterns):
+        yield str(collision)

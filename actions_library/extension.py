@@ -1,0 +1,211 @@
+"""Extension: one more action for a library on disk, all of it or nothing."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+from actions_library.exemplars import write_exemplar
+from actions_library.library import IDLE, Library, load_library, write_library
+from actions_library.manifest import MANIFEST, manifest_text
+from actions_library.storage import CLIPS_FOLDER, EXEMPLARS_FOLDER, write_clip_file
+from smd.character.clip import Clip
+from smd.errors import LibraryError
+from smd.files import replacing
+from smd.recognition.action import Action
+
+_NAME = re.compile(r"[^\W\d_]\w{0,59}")
+
+
+def require_name(name: str) -> None:
+    """Raise LibraryError unless a name is a lower-case word, which may also name a file."""
+    if not _NAME.fullmatch(name) or name != name.lower():
+        raise LibraryError(
+            "action: expected a lower-case word of letters, digits and _ that begins with a "
+            f"letter, got {name[:60]!r}"
+        )
+    if name == IDLE:
+        raise LibraryError(
+            f"action: expected another name than {IDLE!r}, which is played where nothing is drawn"
+        )
+
+
+def require_new(library: Library, name: str) -> None:
+    """Raise LibraryError if a library has an action of this name."""
+    if name in {action.name for action in library.actions}:
+        raise LibraryError(
+            f"{library.folder}: action {name!r} is there already: expected another name, "
+            "or --replace"
+        )
+
+
+def clip_source(
+    action: str, clip: str | None, shelves: Sequence[Library]
+) -> tuple[Library, Action]:
+    """Return whose clip shows a new action: an action, and the library that has it.
+
+    Parameters
+    ----------
+    action
+        Name of the new action.
+    clip
+        Name of the action whose clip was asked for; by default one of the new action's own name,
+        and else idling.
+    shelves
+        The library that is extended, and where else to look, in this order; those with another
+        character than the first one's are passed over.
+
+    Raises
+    ------
+    LibraryError
+        If none of them has it; it names those there are.
+    """
+    joints = shelves[0].character.skeleton.joints
+    fitting = [shelf for shelf in shelves if shelf.character.skeleton.joints == joints]
+    for name in (action, IDLE) if clip is None else (clip,):
+        for shelf in fitting:
+            for known in shelf.actions:
+                if known.name == name:
+                    return shelf, known
+    names = dict.fromkeys(known.name for shelf in fitting for known in shelf.actions)
+    raise LibraryError(f"clip: expected that of {', '.join(names)}; got {clip or IDLE!r}")
+
+
+def new_library(
+    folder: Path, base: Library, kept: Collection[str], action: Action, clip: Clip
+) -> Library:
+    """Write a library of another one's character, some of its actions, and a new one.
+
+    Parameters
+    ----------
+    folder
+        Where; missing or empty. It gives the library its name.
+    base
+        The other library.
+    kept
+        Names of the actions to take over; idling always is.
+    action, clip
+        The new action, and how it is performed; it takes the place of one of its name.
+
+    Raises
+    ------
+    LibraryError
+        If the name is no word, the folder holds something, or it cannot be written.
+    """
+    require_name(action.name)
+    if folder.is_dir() and any(folder.iterdir()):
+        raise LibraryError(f"{folder}: expected a library or an empty folder, found other files")
+    taken = tuple(known for known in base.actions if known.name in (*kept, IDLE))
+    clips = {known.name: base.clip(known.name) for known in taken}
+    return write_library(
+        folder,
+        name=folder.resolve().name,
+        character=base.character,
+        clips={**clips, action.name: clip},
+        actions=_with(taken, action),
+    )
+
+
+def add_action(library: Library, action: Action, clip: Clip) -> Library:
+    """Put an action into a library's folder, in the place of one of its name if there is one.
+
+    New files come first, under names that are not taken; ``library.json``, which is renamed into
+    place, makes them count. Until then the library is what it was, and if anything fails the
+    new files are taken away again. Other files in the folder are left alone.
+
+    Parameters
+    ----------
+    library
+        As it was read from its folder.
+    action
+        To add.
+    clip
+        How it is performed; of the library's character.
+
+    Returns
+    -------
+    Library
+        As it is then.
+
+    Raises
+    ------
+    LibraryError
+        If the name is no word, or the clip moves another character.
+    ExportError
+        If the folder cannot be written.
+    """
+    require_name(action.name)
+    if clip.skeleton.joints != library.character.skeleton.joints:
+        raise LibraryError(
+            f"clip {clip.name!r}: expected one that moves the character of {library.folder}"
+        )
+    stem = _free_stem(library.folder, action.name)
+    clip_file, exemplar_file = f"{CLIPS_FOLDER}/{stem}.usdc", f"{EXEMPLARS_FOLDER}/{stem}.npz"
+    exemplar_files = {**library.exemplar_files, action.name: exemplar_file}
+    if action.exemplar is None:
+        del exemplar_files[action.name]
+    changed = replace(
+        library,
+        actions=_with(library.actions, action),
+        clip_files={**library.clip_files, action.name: clip_file},
+        exemplar_files=exemplar_files,
+    )
+    with _taken_back(library.folder, clip_file, exemplar_file):
+        with _new_file(library.folder / clip_file) as path:
+            write_clip_file(path, clip, f"../{library.character_file}")
+        if action.exemplar is not None:
+            with _new_file(library.folder / exemplar_file) as path:
+                write_exemplar(path, action.exemplar)
+        with replacing(library.folder / MANIFEST) as path:
+            path.write_text(manifest_text(changed), encoding="utf-8", newline="\n")
+    kept = {*changed.clip_files.values(), *changed.exemplar_files.values()}
+    for file in {*library.clip_files.values(), *library.exemplar_files.values()} - kept:
+        (library.folder / file).unlink(missing_ok=True)
+    return load_library(library.folder)
+
+
+def _with(actions: tuple[Action, ...], new: Action) -> tuple[Action, ...]:
+    """Return actions with a new one in its namesake's place, or at the end."""
+    if new.name in {action.name for action in actions}:
+        return tuple(new if action.name == new.name else action for action in actions)
+    return (*actions, new)
+
+
+def _free_stem(folder: Path, name: str) -> str:
+    """Return a file's name without suffix that neither a clip nor an exemplar has."""
+    taken = {
+        path.stem.lower()  # where case does not count, Wave.usdc would be overwritten
+        for part in (CLIPS_FOLDER, EXEMPLARS_FOLDER)
+        if (folder / part).is_dir()
+        for path in (folder / part).iterdir()
+    }
+    stem, count = name, 1
+    while stem in taken:
+        count += 1
+        stem = f"{name}_{count}"
+    return stem
+
+
+@contextmanager
+def _new_file(path: Path) -> Iterator[Path]:
+    """Yield a temporary path that becomes ``path``, whose folder is made where missing."""
+    try:
+        path.parent.mkdir(exist_ok=True)
+    except OSError as error:
+        raise LibraryError(f"{path.parent}: cannot be made: {error.strerror}") from error
+    with replacing(path) as temporary:
+        yield temporary
+
+
+@contextmanager
+def _taken_back(folder: Path, *files: str) -> Iterator[None]:
+    """Remove files again if what follows fails."""
+    try:
+        yield
+    except BaseException:
+        for file in files:
+            (folder / file).unlink(missing_ok=True)
+        raise

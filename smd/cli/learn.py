@@ -1,0 +1,191 @@
+"""``smd learn``: an action's gesture from examples, into a library."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from smd.cli import reading
+
+if TYPE_CHECKING:
+    from actions_library.library import Library
+    from smd.doodle import Doodle
+    from smd.recognition.action import Action
+    from smd.recognition.learning import LearnedPattern
+
+SHOWN_EXAMPLES = 10
+"""More examples are not listed one by one."""
+
+LONG_REST_S = 0.7
+"""A rest within a gesture that is worth asking about."""
+
+SHOWN_TOKENS = 8
+"""Of more optional tokens, the others are counted; the pattern has them all."""
+
+
+def learn(
+    action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
+    recordings: reading.Recordings,
+    library: Annotated[
+        Path, typer.Option("--library", help="The library to extend; made where there is none.")
+    ],
+    clip: Annotated[
+        str | None,
+        typer.Option(
+            "--clip",
+            help="Perform it with the clip of this action, of the library's or the shipped ones. "
+            "Default: that of the same name, else idle.",
+        ),
+    ] = None,
+    base: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            help="Begin a new library with all actions of this one: a folder, or `humanoid` for "
+            "the shipped one. Default: with its character and idling alone.",
+        ),
+    ] = None,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
+    ] = False,
+    description: Annotated[
+        str, typer.Option(help="What the gesture looks like, in one sentence.")
+    ] = "",
+    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
+    device: reading.OneDevice = None,
+    up: reading.Up = None,
+    front: reading.Front = None,
+    handedness: reading.Handedness = None,
+    unit: reading.Unit = None,
+    quaternion: reading.Quaternion = None,
+    mount: reading.Mount = None,
+) -> None:
+    """Learn an action's gesture from examples.
+
+    Each RECORDING is one performance of it; three to five are a good number. Extends a library,
+    or makes one.
+    """
+    import smd
+    from actions_library.extension import (
+        add_action,
+        clip_source,
+        new_library,
+        require_name,
+        require_new,
+    )
+    from actions_library.manifest import MANIFEST
+    from smd.errors import LibraryError
+
+    require_name(action)
+    shipped = smd.load_library()
+    there = (library / MANIFEST).is_file()
+    if there and base is not None:
+        raise LibraryError(f"{library}: expected no library there to begin one --from {base}")
+    if there:
+        start = smd.load_library(library)
+    else:
+        start = shipped if base in (None, shipped.name) else smd.load_library(base)
+    kept = [known.name for known in start.actions] if there or base is not None else []
+    if action in kept and not replace:
+        require_new(start, action)
+    shelf, shown = clip_source(action, clip, (start, shipped))
+    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
+    files = list(reading.recording_files(recordings))
+    doodles = [_example(file, options, device) for file in files]
+    new, learned = _learned(action, files, doodles, figure_height)
+    new = dataclasses.replace(
+        new, travels=shown.travels, cyclic=shown.cyclic, description=description
+    )
+    performed = dataclasses.replace(shelf.clip(shown.name), name=action)
+    if there:
+        extended = add_action(start, new, performed)
+    else:
+        extended = new_library(library, start, kept, new, performed)
+    for line in (*_report(new, learned), *_rests(files, doodles, figure_height)):
+        typer.echo(line)
+    why = "" if clip or shown.name == action else f"; there is no clip {action!r}, see --clip"
+    typer.echo(f"  clip: {shown.name} of the library {shelf.name!r}{why}")
+    for line in _collisions(extended, action):
+        typer.echo(f"  {line}")
+    verb = "extended" if there else "made"
+    names = ", ".join(known.name for known in extended.actions)
+    typer.echo(f"{verb}: {library}: {names}")
+
+
+def _example(file: Path, options: reading.ReadingOptions, device: str | None) -> Doodle:
+    """Return the one doodle of a recording; an example holds the gesture once."""
+    from smd.errors import RecordingError
+
+    doodles = reading.doodles_of_one(options.read(file), device)
+    if len(doodles) > 1:
+        raise RecordingError(
+            f"{file}: expected one performance of the gesture, found {len(doodles)} doodles: "
+            f"tracking was lost from {doodles[0].time_s[-1]:.2f} to {doodles[1].time_s[0]:.2f} s"
+        )
+    return doodles[0]
+
+
+def _learned(
+    name: str, files: list[Path], doodles: list[Doodle], figure_height_m: float
+) -> tuple[Action, LearnedPattern]:
+    """Learn an action, and keep what to say of it; messages name files as the user did."""
+    from smd.recognition import learn_action
+    from smd.recognition.learning import learn_pattern
+
+    learned = learn_pattern(
+        doodles, names=[str(file) for file in files], figure_height_m=figure_height_m
+    )
+    own = [file.name for file in files]
+    return learn_action(name, doodles, names=own, figure_height_m=figure_height_m), learned
+
+
+def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
+    """Yield lines on what was learned."""
+    count = len(learned.names)
+    average = " and their average" if learned.average_sequence else ""
+    yield f"{action.name}: learned from {reading.count(count, 'example')}{average}"
+    for name, sequence, (start_s, end_s) in zip(
+        learned.names, learned.sequences, learned.spans_s, strict=True
+    ):
+        if count <= SHOWN_EXAMPLES:
+            tokens = reading.count(len(sequence), "token")
+            yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
+    yield "  must occur, in this order:"
+    for tokens_there in learned.mandatory:
+        yield f"    {' or '.join(map(str, sorted(tokens_there)))}"
+    needed = frozenset().union(*learned.mandatory)
+    optional = [str(token) for token in learned.pattern.tokens() if token not in needed]
+    shown = ", ".join(optional[:SHOWN_TOKENS])
+    more = f" and {len(optional) - SHOWN_TOKENS} more" if len(optional) > SHOWN_TOKENS else ""
+    yield f"  may occur as well: {shown or 'nothing else'}{more}"
+    yield f"  pattern: {learned.pattern}"
+
+
+def _rests(files: list[Path], doodles: list[Doodle], figure_height_m: float) -> Iterator[str]:
+    """Yield a line on each example that pauses so long that it may be several performances."""
+    from smd.recognition.learning import doodle_runs, without_rest
+    from smd.recognition.tokens import STILL
+
+    for file, doodle in zip(files, doodles, strict=True):
+        for run in without_rest(doodle_runs(doodle, figure_height_m)):
+            if run.token == STILL and run.end_s - run.start_s >= LONG_REST_S:
+                yield (
+                    f"  warning: {file}: rests from {run.start_s:.2f} to {run.end_s:.2f} s; "
+                    "expected one performance of the gesture"
+                )
+
+
+def _collisions(library: Library, name: str) -> Iterator[str]:
+    """Yield lines on the other actions that the new one may be taken for."""
+    from smd.recognition.collisions import collisions_of
+
+    patterns = {action.name: action.pattern for action in library.actions if action.pattern}
+    found = collisions_of(name, patterns)
+    for collision in found:
+        yield f"warning: {collision}"
+    if not found and len(patterns) > 1:
+        yield "collides with no other action of the library"
