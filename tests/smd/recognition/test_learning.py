@@ -18,6 +18,7 @@ from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
 from smd.synthetic.strokes import GESTURES, STEADY, simulated_person
 from smd.synthetic.takes import Take
+from tests.naive.learning_by_index import learned_by_index
 
 HEIGHT_M = 0.175
 NEAR = tuple(map(Token.parse, ("T_Z", "T_Y_Z", "T_X_Z", "T_X_Y_Z", "T_Z/R_Y", "STILL")))
@@ -173,6 +174,17 @@ def test_a_quick_movement_that_three_examples_share_is_mandatory():
     main = [Stroke(Token.parse("T_Z"), 1.0), Stroke(Token.parse("T_X"), 0.05)]
     assert str(pattern_of(generalized([main] * 2))) == "T_Z+ T_X*"
     assert str(pattern_of(generalized([main] * 3))) == "T_Z+ T_X+"
+
+
+def test_one_token_too_many_shifts_nothing_here_and_everything_where_paired_by_index():
+    names = [["T_Z", "T_N_Z", "T_Y"], ["T_X", "T_Z", "T_N_Z", "T_Y"]]
+    words = [tuple(map(Token.parse, each)) for each in names]
+    ours = pattern_of(generalized([[Stroke(token, 1.0) for token in word] for word in words]))
+    paper = learned_by_index(words, [[True] * len(word) for word in words])
+    assert str(ours) == "T_X* T_Z+ T_N_Z+ T_Y+"
+    assert str(paper) == "(T_Z|T_X)+ (T_N_Z|T_Z)+ (T_Y|T_N_Z)+ T_Y*"
+    for pattern in (ours, paper):
+        assert [distance(pattern, word) for word in words] == [0, 0]
 
 
 def test_alternatives_at_one_place_are_a_choice():
