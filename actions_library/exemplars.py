@@ -20,9 +20,9 @@ MOST_NUMBERS = 50_000_000
 
 
 def write_exemplar(path: Path, exemplar: Exemplar) -> None:
-    """Write an exemplar; the same one gives the same bytes."""
-    arrays = exemplar.to_arrays()
-    np.savez_compressed(path, allow_pickle=False, **{key: arrays[key] for key in sorted(arrays)})
+    """Write an exemplar, in single precision; the same one gives the same bytes."""
+    arrays = {key: array.astype(np.float32) for key, array in sorted(exemplar.to_arrays().items())}
+    np.savez_compressed(path, allow_pickle=False, **arrays)
 
 
 def read_exemplar(path: Path) -> Exemplar:

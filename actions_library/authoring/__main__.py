@@ -8,17 +8,17 @@ from pathlib import Path
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
+from actions_library.authoring.examples import with_examples
 from actions_library.library import Library, write_library
 from smd.errors import SmdError
 
 
 def write_humanoid(folder: Path) -> Library:
-    """Make the humanoid, its clips and its actions, and write them as a library."""
+    """Make the humanoid, its clips, its actions and their examples, and write them as a library."""
     character = humanoid_character()
     clips = {clip.name: clip for clip in humanoid_clips(character.skeleton)}
-    return write_library(
-        folder, name="humanoid", character=character, clips=clips, actions=HUMANOID_ACTIONS
-    )
+    actions = with_examples(HUMANOID_ACTIONS)
+    return write_library(folder, name="humanoid", character=character, clips=clips, actions=actions)
 
 
 def main(arguments: list[str]) -> int:
