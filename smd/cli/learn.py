@@ -100,13 +100,13 @@ def learn(
     new = dataclasses.replace(
         new, travels=shown.travels, cyclic=shown.cyclic, description=description
     )
+    report = [*_report(new, learned), *_rests(files, doodles, figure_height)]
     performed = dataclasses.replace(shelf.clip(shown.name), name=action)
     if there:
         extended = add_action(start, new, performed)
     else:
         extended = new_library(library, start, kept, new, performed)
-    for line in (*_report(new, learned), *_rests(files, doodles, figure_height)):
-        typer.echo(line)
+    typer.echo("\n".join(report))
     why = "" if clip or shown.name == action else f"; there is no clip {action!r}, see --clip"
     typer.echo(f"  clip: {shown.name} of the library {shelf.name!r}{why}")
     for line in _collisions(extended, action):
@@ -154,7 +154,10 @@ def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
         if count <= SHOWN_EXAMPLES:
             tokens = reading.count(len(sequence), "token")
             yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
-    yield "  must occur, in this order:"
+    if learned.mandatory:
+        yield "  must occur, in this order:"
+    else:
+        yield "  the examples show several ways to draw it"
     for tokens_there in learned.mandatory:
         yield f"    {' or '.join(map(str, sorted(tokens_there)))}"
     needed = frozenset().union(*learned.mandatory)
