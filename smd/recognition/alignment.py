@@ -95,6 +95,29 @@ def distances(
     return np.array(found, dtype=np.float64)
 
 
+def distance_table(a: FloatArray, b: FloatArray, *, band: float | None = None) -> FloatArray:
+    """Return the `distance` of each of p courses to each of m, ``(p, m)``, in one call of C code.
+
+    Parameters
+    ----------
+    a, b
+        ``(p, n, d)`` and ``(m, n, d)``, d at least 2, finite.
+    band
+        As in `distance`.
+    """
+    from dtaidistance import dtw
+
+    p, m = len(a), len(b)
+    if not p or not m:
+        return np.zeros((p, m))
+    stacked = np.ascontiguousarray(np.concatenate([a, b]), dtype=np.float64)
+    options = _options(stacked[0], stacked[-1], band)
+    root = dtw.distance_matrix_fast(
+        stacked, block=((0, p), (p, p + m)), compact=True, parallel=False, **options
+    )
+    return np.asarray(root, np.float64).reshape(p, m) / np.sqrt(stacked.shape[1])
+
+
 def _course(name: str, value: ArrayLike) -> FloatArray:
     """Return a checked ``(n, d)`` array that C code may read."""
     array: FloatArray = np.require(value, np.float64, ("C", "A", "W"))

@@ -10,14 +10,14 @@ import numpy as np
 
 from smd.errors import DoodleError
 from smd.geometry.arrays import FloatArray, frozen_array
-from smd.recognition.alignment import distances
-from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits, turned_towards
+from smd.recognition.alignment import distance_table
+from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits, fitted
 
 BAND = 0.25
 """How far warping may shift, as a share of the gesture."""
 
-MOST_HEADING_RAD = np.radians(30.0)
-"""How far a hand's front may be from where the user means to face."""
+FACING_RAD, ASKEW_RAD = np.radians(30.0), np.radians(20.0)
+"""How far a hand may face beside where the user means to, and hold the prop askew."""
 
 USUAL_DISTANCE = (0.4, 0.4, 0.9, 0.9)
 """Of each course, from an example to the nearest other one of the same person and action: the
@@ -119,24 +119,24 @@ def exemplar_of(examples: Sequence[Traits]) -> Exemplar:
     apart = np.zeros((n if n > 1 else 0, len(COURSES)))
     for i in range(len(apart)):
         others = [j for j in range(n) if j != i]
-        rest = {name: course[others] for name, course in courses.items()}
-        apart[i] = nearest_distances(examples[i], rest)
+        for k, course in enumerate(courses.values()):
+            apart[i, k] = nearest_distances(course[i : i + 1], course[others], k)[0]
     measures = np.stack([example.measures for example in examples])
     return Exemplar(courses, measures, apart)
 
 
-def nearest_distances(gesture: Traits, courses: Mapping[str, FloatArray]) -> FloatArray:
-    """Return ``(4,)``: from each course of a gesture to the nearest example's, warped."""
-    nearest = np.empty(len(COURSES))
-    for i, (name, ours) in enumerate(zip(COURSES, gesture.courses, strict=True)):
-        theirs = courses[name]
-        if name == "shape_heading":
-            turned = turned_towards(ours, theirs, MOST_HEADING_RAD)
-            far = [
-                distances(one, (other,), band=BAND)[0]
-                for one, other in zip(turned, theirs, strict=True)
-            ]
-            nearest[i] = min(far)
-        else:
-            nearest[i] = distances(ours, theirs, band=BAND).min()
-    return nearest
+def nearest_distances(gestures: FloatArray, examples: FloatArray, index: int) -> FloatArray:
+    """Return ``(p,)``: how far each of p gestures is from the nearest of m examples, warped.
+
+    Parameters
+    ----------
+    gestures, examples
+        ``(p, SAMPLES, d)`` and ``(m, SAMPLES, d)``, one course of each.
+    index
+        Which of `COURSES` it is.
+    """
+    if COURSES[index] == "shape_heading":
+        far = np.square(examples - examples.mean(axis=0)).sum(axis=(1, 2))
+        central = examples[int(far.argmin())]
+        gestures = fitted(gestures, central, facing_rad=FACING_RAD, askew_rad=ASKEW_RAD)
+    return np.asarray(distance_table(gestures, examples, band=BAND).min(axis=1))

@@ -18,21 +18,22 @@ from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import learn_pattern
 from smd.recognition.proposals import Proposal, between_rests, explaining
-from smd.recognition.recognizer import Span, with_loose_ends
+from smd.recognition.recognizer import Span, recognize, with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import Traits, traits_of
-from smd.recognition.verification import TERMS, WEIGHTS, verifiers
+from smd.recognition.verification import TERMS, verifiers
 from smd.smoothing import smooth
 
-UNVERIFIED = 4.0
-"""What an action without examples costs besides its tokens: as much as a good fit to examples."""
+UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
+"""What an action without examples costs: as much as a fair fit to examples, and more with the
+share of tokens that are wrong."""
 
-ACTION = 0.3
-UNEXPLAINED = 20.0
-"""What leaving movement unexplained costs, an edit: more than any gesture within its limit, so
-that what looks like an action is taken for one, and what does not is rejected by the limit."""
+ACTION, UNEXPLAINED = 0.3, 20.0
+"""What seeing an action costs, and what a second of movement costs that is left unexplained. That
+is more than any gesture within its limit costs: what looks like an action is taken for one, and
+what does not is rejected by the limit."""
 
 
 class HasActions(Protocol):
@@ -139,7 +140,7 @@ class Recognizer:
         moving = [i for i, run in enumerate(runs) if run.token != STILL]
         if not moving or not self.names:
             return [Match(None, 0.0, 1.0)]
-        return self._matches(motion, runs, moving[0], moving[-1] + 1)
+        return self._matches(motion, runs, [(moving[0], moving[-1] + 1)])[0]
 
     def spot(self, doodle: Doodle) -> list[Span]:
         """Find the actions in a doodle, in time order.
@@ -165,55 +166,62 @@ class Recognizer:
         The automata propose, for each action and each end, the stretch that explains most. Each
         proposal is weighed by its tokens and against the action's examples, and left aside where
         it costs more than the action's limit. Of the rest those are chosen that do not overlap
-        and cost least, all movement between them included.
+        and cost least, each a second of movement, all movement between them included.
         """
+        if not any(self._verifiers):
+            return list(recognize(runs, self._bank, costs=self._costs))
         prices = run_costs(runs, self._costs)
-        movement = _movement(runs, prices)
-        explained = np.concatenate([[0.0], np.cumsum(movement)])
-        weighed: dict[tuple[int, int], Traits] = {}
-        accepted: list[tuple[Proposal, float]] = []
-        proposed = explaining(self._bank, runs, prices)
-        if any(self._verifiers):
-            proposed += between_rests(self._bank, runs, prices)
-        for proposal in proposed:
-            cost = self._cost(proposal, motion, runs, weighed)
-            if cost < np.inf:
-                amount = float(explained[proposal.last] - explained[proposal.first])
-                accepted.append((proposal, ACTION + cost * amount))
+        found = explaining(self._bank, runs, prices)
+        found += between_rests(self._bank, runs, prices)
+        accepted = self._accepted(list(dict.fromkeys(found)), motion, runs, prices)
+        movement_s = np.array([run.end_s - run.start_s for run in runs]) * ~prices.is_still
+        explained_s = np.concatenate([[0.0], np.cumsum(movement_s)])
         chosen = best_cut(
-            [proposal.first for proposal, _ in accepted],
-            [proposal.last for proposal, _ in accepted],
-            [cost for _, cost in accepted],
-            UNEXPLAINED * movement,
+            [one.first for one, _ in accepted],
+            [one.last for one, _ in accepted],
+            [
+                ACTION + cost * float(explained_s[one.last] - explained_s[one.first])
+                for one, cost in accepted
+            ],
+            UNEXPLAINED * movement_s,
         )
-        segments = [
-            Segment(accepted[i][0].action, accepted[i][0].first, accepted[i][0].last)
-            for i in chosen
-        ]
+        segments = [Segment(*accepted[i][0][:3]) for i in chosen]
+        whole = with_loose_ends(segments, runs)
+        matches = self._matches(motion, runs, [(one.first, one.last) for one in whole])
         return [
-            self._span(segment, whole, motion, runs)
-            for segment, whole in zip(segments, with_loose_ends(segments, runs), strict=True)
+            _span(self.names[one.index], one, runs, ranked)
+            for one, ranked in zip(whole, matches, strict=True)
         ]
 
-    def _cost(
+    def _accepted(
         self,
-        proposal: Proposal,
+        found: Sequence[Proposal],
         motion: RigidMotion,
         runs: Sequence[TokenRun],
-        weighed: dict[tuple[int, int], Traits],
-    ) -> float:
-        """Return what a proposal costs; `inf` if it is rejected."""
-        verifier = self._verifiers[proposal.action]
-        if verifier is None:
-            return UNVERIFIED + UNEXPLAINED * (proposal.distance + self._costs.action) / 2.0
-        segment = Segment(proposal.action, proposal.first, proposal.last)
-        (whole,) = with_loose_ends([segment], runs)
-        key = whole.first, whole.last
-        if key not in weighed:
-            weighed[key] = self._traits(motion, runs, *key)
-        wrong = proposal.distance / _strokes(runs[proposal.first : proposal.last])
-        cost = verifier.cost(weighed[key], wrong)
-        return cost if cost <= verifier.limit else np.inf
+        prices: RunCosts,
+    ) -> list[tuple[Proposal, float]]:
+        """Return the proposals that fit their action's examples, and what each costs."""
+        traits: dict[tuple[int, int], Traits] = {}
+        accepted: list[tuple[Proposal, float]] = []
+        for action, verifier in enumerate(self._verifiers):
+            own = [one for one in found if one.action == action]
+            wrong = np.array([one.distance / _strokes(runs[one.first : one.last]) for one in own])
+            if verifier is None:
+                gain = [float(prices.unexplained[o.first : o.last].sum()) - o.distance for o in own]
+                pays = np.array(gain) > self._costs.action
+                cost = np.where(pays, UNVERIFIED + UNVERIFIED_WRONG * wrong, np.inf)
+            else:
+                gestures = []
+                for one in own:
+                    (whole,) = with_loose_ends([Segment(*one[:3])], runs)
+                    key = whole.first, whole.last
+                    if key not in traits:
+                        traits[key] = self._traits(motion, runs, *key)
+                    gestures.append(traits[key])
+                cost = verifier.terms(gestures, wrong, verifier.limit).sum(axis=1)
+                cost[cost > verifier.limit] = np.inf
+            accepted += [(o, c) for o, c in zip(own, cost.tolist(), strict=True) if c < np.inf]
+        return accepted
 
     def _traits(
         self, motion: RigidMotion, runs: Sequence[TokenRun], first: int, last: int
@@ -222,61 +230,76 @@ class Recognizer:
         return traits_of(part, figure_height_m=self._figure_height_m)
 
     def _matches(
-        self, motion: RigidMotion, runs: Sequence[TokenRun], first: int, last: int
-    ) -> list[Match]:
-        """Weigh every action and none for a stretch of runs, the best first."""
-        part = runs[first:last]
-        prices = run_costs(part, self._costs)
-        read = prices.of_reading(self._bank, part)
-        distance = least_costs(self._bank, read=read, skip=prices.skip)
-        gesture = self._traits(motion, runs, first, last)
-        found: list[tuple[str | None, float, float, FloatArray]] = []
-        for name, verifier, edits in zip(
-            self.names, self._verifiers, distance.tolist(), strict=True
-        ):
-            if verifier is None:
-                cost = UNVERIFIED + UNEXPLAINED * edits / 2.0
-                found.append((name, cost, 2.0 * UNVERIFIED, np.array([edits])))
-            else:
-                terms = WEIGHTS * verifier.terms(gesture, edits / _strokes(part))
-                found.append((name, float(terms.sum()), verifier.limit, terms))
-        nearest = min(found, key=lambda one: one[1])
-        found.append((None, nearest[2], nearest[2], np.zeros(0)))
-        found.sort(key=lambda one: one[1])
-        weight = np.exp(found[0][1] - np.array([cost for _, cost, _, _ in found]))
-        share = weight / weight.sum()
-        return [
-            Match(name, cost, float(p), tuple(zip(TERMS, terms.tolist(), strict=False)))
-            for (name, cost, _, terms), p in zip(found, share, strict=True)
+        self, motion: RigidMotion, runs: Sequence[TokenRun], stretches: Sequence[tuple[int, int]]
+    ) -> list[list[Match]]:
+        """Weigh every action, and none, for stretches of runs; for each the best first."""
+        prices = run_costs(runs, self._costs)
+        read = prices.of_reading(self._bank, runs)
+        parts = [slice(*stretch) for stretch in stretches]
+        wrong = np.array(
+            [
+                least_costs(self._bank, read=read[part], skip=prices.skip[part])
+                / _strokes(runs[part])
+                for part in parts
+            ]
+        ).reshape(len(parts), len(self.names))
+        gestures = [self._traits(motion, runs, *stretch) for stretch in stretches]
+        terms = [
+            np.stack([np.full(len(parts), UNVERIFIED), UNVERIFIED_WRONG * wrong[:, i]], axis=1)
+            if verifier is None
+            else verifier.terms(gestures, wrong[:, i], np.inf)
+            for i, verifier in enumerate(self._verifiers)
         ]
+        limits = [
+            UNVERIFIED + UNVERIFIED_WRONG if verifier is None else verifier.limit
+            for verifier in self._verifiers
+        ]
+        return [_ranked(self.names, [each[k] for each in terms], limits) for k in range(len(parts))]
 
-    def _span(
-        self, segment: Segment, whole: Segment, motion: RigidMotion, runs: Sequence[TokenRun]
-    ) -> Span:
-        matches = self._matches(motion, runs, whole.first, whole.last)
-        name = self.names[segment.index]
-        own = next(match for match in matches if match.action == name)
-        return Span(
-            action=name,
-            first_run=whole.first,
-            last_run=whole.last,
-            start_s=runs[whole.first].start_s,
-            end_s=runs[whole.last - 1].end_s,
-            distance=own.distance,
-            confidence=own.confidence,
-            alternatives=tuple(
-                (match.action, match.distance)
-                for match in matches
-                if match.action not in (None, name)
-            ),
-        )
+
+def _ranked(
+    names: Sequence[str], terms: Sequence[FloatArray], limits: Sequence[float]
+) -> list[Match]:
+    """Return the matches of one gesture, the best first.
+
+    The costs are negative logarithms of likelihoods, up to a constant, so the confidence is each
+    one's share of the likelihood; nothing at all is as likely as the best action at its limit.
+    """
+    costs = [float(each.sum()) for each in terms]
+    nothing = limits[int(np.argmin(costs))]
+    weight = np.exp(min(*costs, nothing) - np.array([*costs, nothing]))
+    share = (weight / weight.sum()).tolist()
+    matches = [
+        Match(name, cost, p, tuple(zip(_labels(each), each.tolist(), strict=True)))
+        for name, cost, p, each in zip(names, costs, share[:-1], terms, strict=True)
+    ]
+    matches.append(Match(None, nothing, share[-1]))
+    return sorted(matches, key=lambda match: match.distance)
+
+
+def _labels(terms: FloatArray) -> tuple[str, ...]:
+    return TERMS if len(terms) == len(TERMS) else ("no examples", "tokens")
+
+
+def _span(name: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[Match]) -> Span:
+    """Return the span of a chosen stretch; ``ranked`` weighs all actions for it."""
+    own = next(match for match in ranked if match.action == name)
+    return Span(
+        action=name,
+        first_run=whole.first,
+        last_run=whole.last,
+        start_s=runs[whole.first].start_s,
+        end_s=runs[whole.last - 1].end_s,
+        distance=own.distance,
+        confidence=own.confidence,
+        alternatives=tuple(
+            (match.action, match.distance)
+            for match in ranked
+            if match.action is not None and match.action != name
+        ),
+    )
 
 
 def _strokes(runs: Sequence[TokenRun]) -> int:
     """Return how many of some runs move."""
     return max(sum(run.token != STILL for run in runs), 1)
-
-
-def _movement(runs: Sequence[TokenRun], prices: RunCosts) -> FloatArray:
-    """Return how much of the doodle each run is: seconds of movement."""
-    return np.array([0.0 if r.token == STILL else r.end_s - r.start_s for r in runs])

@@ -10,7 +10,13 @@ from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import FloatArray
 from smd.geometry.resampling import interpolate_linear
-from smd.geometry.rotations import inverse, multiply, rotate
+from smd.geometry.rotations import (
+    inverse,
+    matrix_from_quaternion,
+    multiply,
+    quaternion_from_rotvec,
+    rotate,
+)
 from smd.recognition.embedding import (
     Poses,
     embed_poses,
@@ -97,39 +103,59 @@ def traits_of(motion: RigidMotion, *, figure_height_m: float = DEFAULT_FIGURE_HE
     )
 
 
-def turned_towards(shape: FloatArray, targets: FloatArray, most_rad: float) -> FloatArray:
-    """Return a shape turned about up to fit each target best, by ``most_rad`` at most.
+def fitted(
+    shapes: FloatArray, target: FloatArray, *, facing_rad: float, askew_rad: float
+) -> FloatArray:
+    """Return shapes turned to fit another one better, within what hands leave open.
 
-    A hand shows where it faces only roughly. The turn about +Y that brings simultaneous points
-    nearest to each other has a closed form: the angle of the sum of their products, as complex
-    numbers of the level plane.
+    A hand shows where it faces only roughly, and holds the prop a little askew. Both are constant
+    turns, about the world's up axis and in the prop's own frame, and are taken away, up to a
+    limit. The first brings simultaneous points nearest to each other: it is the angle of the sum
+    of their products, as complex numbers of the level plane. The second follows from the sum of
+    the cross products of simultaneous axes, which for one constant turn is its sine times its axis.
 
     Parameters
     ----------
-    shape
-        ``(n, 3 k)``: k vectors a sample, all of which turn.
-    targets
-        ``(m, n, 3 k)``.
+    shapes
+        ``(m, n, 12)``: a position and three axes a sample.
+    target
+        ``(n, 12)``.
+    facing_rad, askew_rad
+        The most that each may take away; non-negative.
 
     Returns
     -------
     ndarray
-        ``(m, n, 3 k)``.
+        ``(m, n, 12)``.
     """
-    n, width = shape.shape
-    ours = shape.reshape(n, width // 3, 3)
-    theirs = targets.reshape(-1, n, width // 3, 3)
-    along = np.einsum("nki,mnki->m", ours[..., ::2], theirs[..., ::2])
-    across = np.einsum("nk,mnk->m", ours[..., 2], theirs[..., 0]) - np.einsum(
-        "nk,mnk->m", ours[..., 0], theirs[..., 2]
-    )
-    angle = np.clip(np.arctan2(across, along), -most_rad, most_rad)[:, None, None]
+    m, n, _ = shapes.shape
+    vectors, wanted = shapes.reshape(m, 4 * n, 3), target.reshape(4 * n, 3)
+    x, z = vectors[..., 0], vectors[..., 2]
+    along = x @ wanted[:, 0] + z @ wanted[:, 2]
+    across = z @ wanted[:, 0] - x @ wanted[:, 2]
+    angle = np.clip(np.arctan2(across, along), -facing_rad, facing_rad)[:, None]
     cosine, sine = np.cos(angle), np.sin(angle)
-    turned = np.empty_like(theirs)
-    turned[..., 0] = cosine * ours[..., 0] + sine * ours[..., 2]
-    turned[..., 1] = ours[..., 1]
-    turned[..., 2] = cosine * ours[..., 2] - sine * ours[..., 0]
-    return turned.reshape(targets.shape)
+    turned = np.stack([cosine * x + sine * z, vectors[..., 1], cosine * z - sine * x], axis=-1)
+    turned = turned.reshape(m, n, 4, 3)
+
+    axes, goal = turned[:, :, 1:], target.reshape(n, 4, 3)[:, 1:]
+    # (m, 3, 3), the mean of (our frame)^T (their frame), each of unit axes
+    between = np.tensordot(axes, goal, axes=([1, 3], [0, 2])) / (n * 0.5 * _RADIAN_IN_SHAPE**2)
+    sine_axis = 0.5 * np.stack(
+        [
+            between[:, 2, 1] - between[:, 1, 2],
+            between[:, 0, 2] - between[:, 2, 0],
+            between[:, 1, 0] - between[:, 0, 1],
+        ],
+        axis=-1,
+    )
+    size = np.linalg.norm(sine_axis, axis=-1, keepdims=True)
+    most = np.minimum(np.arcsin(np.minimum(size, 1.0)), askew_rad)
+    held = matrix_from_quaternion(
+        quaternion_from_rotvec(sine_axis / np.maximum(size, 1e-12) * -most)
+    )
+    turned[:, :, 1:] = np.matmul(held[:, None], axes)
+    return turned.reshape(shapes.shape)
 
 
 def _shape(poses: Poses, frame_xyzw: FloatArray) -> FloatArray:

@@ -25,8 +25,13 @@ people (4) and people who wave their hands before a camera (10) do."""
 PRIOR_COSTS = 3.0
 """How many examples the usual cost counts for, in a library's threshold and in an action's."""
 
-SLACK, SLACK_SHARE = 5.0, 1.6
+SLACK, SLACK_SHARE = 4.5, 1.6
 """A gesture is rejected where it costs more than this, and so many times an example's cost."""
+
+_MEASURES = slice(1 + len(COURSES), len(TERMS))
+_QUICKEST_FIRST = tuple(
+    COURSES.index(name) for name in ("flow_heading", "shape_heading", "flow_prop", "shape_prop")
+)
 
 _FREEDOM = 4.0
 """Of Student's distribution, which measures are taken to follow: what is far out is hardly more
@@ -46,27 +51,33 @@ class Verifier:
     exemplar: Exemplar
     limit: float
 
-    def terms(self, gesture: Traits, wrong: float) -> FloatArray:
-        """Return ``(9,)``, how unlike the action a gesture is, in the order of `TERMS`.
+    def terms(self, gestures: Sequence[Traits], wrong: FloatArray, most: float) -> FloatArray:
+        """Return ``(p, 9)``: how unlike the action each of p gestures is, in the order of `TERMS`.
 
         A course's term is its distance to the nearest example, as a multiple of what is usual; a
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
-        its peak; the tokens' is ``wrong``, the edits from the pattern as a share of the tokens.
+        its peak; the tokens' is ``wrong (p,)``, the edits from the pattern as a share of the
+        tokens. Each is multiplied by its weight, and none is negative. So the quickest come
+        first, and the rest are not looked for (`inf`) once the sum is above ``most``.
         """
         own = self.exemplar
-        far = nearest_distances(gesture, own.courses) / own.scale
-        return np.concatenate([[wrong], far, self._odd(gesture)])
-
-    def cost(self, gesture: Traits, wrong: float) -> float:
-        """Return the weighed sum of the terms; `inf` where it is above the limit for certain."""
-        measured = WEIGHTS[0] * wrong + float(WEIGHTS[5:] @ self._odd(gesture))
-        if measured > self.limit:
-            return float("inf")  # no term is negative: aligning would only add to it
-        return float(WEIGHTS @ self.terms(gesture, wrong))
-
-    def _odd(self, gesture: Traits) -> FloatArray:
-        own = self.exemplar
-        return _oddness((gesture.measures - own.centre) / own.spread)
+        terms = np.full((len(gestures), len(TERMS)), np.inf)
+        if not len(gestures):
+            return terms
+        terms[:, 0] = wrong
+        measures = np.stack([gesture.measures for gesture in gestures])
+        terms[:, _MEASURES] = _oddness((measures - own.centre) / own.spread)
+        terms *= WEIGHTS
+        total = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
+        for i in _QUICKEST_FIRST:
+            left = np.flatnonzero(total <= most)
+            if not len(left):
+                break
+            ours = np.stack([gestures[k].courses[i] for k in left.tolist()])
+            far = nearest_distances(ours, own.courses[COURSES[i]], i) / own.scale[i]
+            terms[left, 1 + i] = WEIGHTS[1 + i] * far
+            total[left] += terms[left, 1 + i]
+        return terms
 
 
 def verifiers(exemplars: Sequence[Exemplar | None]) -> tuple[Verifier | None, ...]:
