@@ -75,17 +75,38 @@ def smooth(doodle: Doodle, *, rate_hz: float = RATE_HZ, window_s: float = WINDOW
             f"device {doodle.device!r}: expected a doodle of at most "
             f"{MOST_SAMPLES / rate_hz:.0f} s, got {doodle.duration_s:.0f} s"
         )
-    # - 0.3: the steps between whole multiples of 60 Hz fall at 78 and 138 Hz, where no sensor is.
-    own_rate_hz = (len(doodle) - 1) / doodle.duration_s
-    stride = min(max(1, math.ceil(own_rate_hz / rate_hz - 0.3)), MOST_SAMPLES // periods)
-    half = min(max(round(0.5 * window_s * rate_hz), SMALLEST_HALF_WINDOW), periods // 2) * stride
+    stride = min(stride_of((len(doodle) - 1) / doodle.duration_s, rate_hz), MOST_SAMPLES // periods)
+    half = min(half_window(rate_hz, window_s), periods // 2) * stride
     step_s = 1.0 / (rate_hz * stride)
     from_start_s = np.arange(periods * stride + 1, dtype=np.float64) * step_s
-    measured_m, measured_xyzw = _resampled(doodle, from_start_s)
+    measured = resampled(doodle, from_start_s)
+    return fitted(doodle.time_s[0] + from_start_s, *measured, step_s, half, stride)
+
+
+def stride_of(own_rate_hz: float, rate_hz: float) -> int:
+    """Return how many times finer than ``rate_hz`` a grid must be to use a doodle's own samples."""
+    # - 0.3: the steps between whole multiples of 60 Hz fall at 78 and 138 Hz, where no sensor is.
+    return max(1, math.ceil(own_rate_hz / rate_hz - 0.3))
+
+
+def half_window(rate_hz: float, window_s: float) -> int:
+    """Return half the periods of ``rate_hz`` that a fit spans."""
+    return max(round(0.5 * window_s * rate_hz), SMALLEST_HALF_WINDOW)
+
+
+def fitted(
+    time_s: FloatArray,
+    measured_m: FloatArray,
+    measured_xyzw: FloatArray,
+    step_s: float,
+    half: int,
+    stride: int,
+) -> RigidMotion:
+    """Return the motion fitted to samples every ``step_s``, at every ``stride``-th of them."""
     position, velocity, acceleration, jerk = smooth_values(measured_m, step_s, half, stride)
     turning = smooth_rotations(measured_xyzw, step_s, half, stride)
     return RigidMotion(
-        time_s=doodle.time_s[0] + from_start_s[::stride],
+        time_s=time_s[::stride],
         position_m=position,
         orientation_xyzw=turning.orientation_xyzw,
         velocity_m_s=velocity,
@@ -97,7 +118,7 @@ def smooth(doodle: Doodle, *, rate_hz: float = RATE_HZ, window_s: float = WINDOW
     )
 
 
-def _resampled(doodle: Doodle, from_start_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+def resampled(doodle: Doodle, from_start_s: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return position and orientation at times counted from the doodle's first sample."""
     own_s = doodle.time_s - doodle.time_s[0]  # small numbers: clocks may count from 1970
     if len(doodle) < 4:

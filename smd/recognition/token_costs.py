@@ -69,7 +69,7 @@ def unit_costs() -> TokenCosts:
 
 
 @cache
-def graded_costs(*, far_rad: float = np.pi / 2.0, begun: float = 0.5) -> TokenCosts:
+def graded_costs(*, far_rad: float = np.pi, begun: float = 0.5) -> TokenCosts:
     """Return costs by how far apart two tokens' directions are.
 
     Translation and rotation each cost the angle between their directions, as a share of

@@ -25,9 +25,14 @@ def test_unit_costs_tell_equal_from_different():
 
 
 def test_nearer_directions_cost_less():
-    near, further, across = (price("T_Z", other) for other in ("T_X_Z", "T_X_Y_Z", "T_X"))
-    assert 0.0 < near < further < across == price("T_Z", "T_N_Z") == 1.0
+    near, further, across, against = (
+        price("T_Z", other) for other in ("T_X_Z", "T_X_Y_Z", "T_X", "T_N_Z")
+    )
+    assert (near, across, against) == (0.25, 0.5, 1.0)  # angles as shares of half a turn
+    assert near < further < across
     assert price("R_Y", "R_Y_Z") == near
+    quarter = graded_costs(far_rad=np.pi / 2.0)
+    assert price("T_Z", "T_X", quarter) == price("T_Z", "T_N_Z", quarter) == 1.0
 
 
 def test_moving_or_not_is_between_near_and_far():
@@ -36,8 +41,8 @@ def test_moving_or_not_is_between_near_and_far():
 
 
 def test_translation_and_rotation_add_up():
-    both = price("T_Z/R_Y", "T_X_Z/R_X_Y", graded_costs(far_rad=np.pi))
-    assert both == pytest.approx(2 * price("T_Z", "T_X_Z", graded_costs(far_rad=np.pi)), abs=1 / 64)
+    assert price("T_Z/R_Y", "T_X_Z/R_X_Y") == 2.0 * price("T_Z", "T_X_Z")
+    assert price("T_Z/R_Y", "T_N_Z/R_N_Y") == 1.0
 
 
 def test_a_half_turn_of_the_world_changes_no_cost():

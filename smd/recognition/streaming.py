@@ -1,0 +1,177 @@
+"""RecognitionStream: the actions in a doodle that is still being drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from laban import RigidMotion
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
+from smd.geometry.arrays import BoolArray, FloatArray
+from smd.recognition.recognizer import Span
+from smd.recognition.smoothing_stream import Arrays, SmoothingStream
+from smd.recognition.tokenizer import tokenize
+from smd.recognition.tokens import STILL, TokenRun
+
+Spotter: TypeAlias = Callable[[RigidMotion, Sequence[TokenRun]], Sequence[Span]]
+"""Finds the actions in a motion that is cut into tokens, as an offline pass would."""
+
+HORIZON_S = 0.5
+"""A span is final this long after its last movement, at the latest."""
+
+BLOCK_S = 0.1
+"""The stream looks at what has come this often, and when a span falls due."""
+
+MEMORY_S = 4.0
+"""Movement that nothing has explained for this long is given up."""
+
+STEP_S = 1.0 / 50.0
+"""Most time between two samples for which the horizon is kept."""
+
+_CONTEXT_S = 1.5
+"""Movement that is decided, and kept to see beside it how faint what follows is."""
+
+_SAME_S = 0.025
+"""Times nearer than one and a half periods are the same boundary, seen from two blocks."""
+
+
+class RecognitionStream:
+    """Recognises actions while they are drawn.
+
+    Samples are smoothed as they come (`SmoothingStream`). Every `BLOCK_S`, and when a span falls
+    due, the motion that is not decided yet is cut into tokens and given to the spotter, as if it
+    were all there is. Spans that ended ``horizon_s`` ago (less two samples) are final; the rest
+    is decided again next time. So a span is final as soon as the offline pass over what has come
+    says that it ended so long ago. ``docs/streaming.md`` tells where that differs from the
+    offline pass over everything.
+
+    Parameters
+    ----------
+    spot
+        The offline pass: ``lambda motion, runs: recognize(runs, bank)`` for tokens alone.
+    figure_height_m
+        Height of the figurine that the prop stands for.
+    horizon_s
+        How long after its last movement a span is final, at least `BLOCK_S`; longer is nearer
+        to the offline pass.
+    """
+
+    def __init__(
+        self,
+        spot: Spotter,
+        *,
+        figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+        horizon_s: float = HORIZON_S,
+    ) -> None:
+        self._spot = spot
+        self._figure_height_m = figure_height_m
+        self._settling_s = horizon_s - 2.0 * STEP_S
+        self._smoothing = SmoothingStream()
+        self._arrays: Arrays = ()  # of the motion that is not decided yet, and some before it
+        self._given: list[tuple[float, bool]] = []  # times of samples, and whether they draw
+        self._look_s = -np.inf  # when to look next
+        self._decided_s = -np.inf  # what begins earlier is decided
+        self._forgotten = 0  # runs before the motion that is kept
+
+    def push(
+        self,
+        time_s: float,
+        position_m: ArrayLike,
+        orientation_xyzw: ArrayLike,
+        drawing: bool = True,
+    ) -> list[Span]:
+        """Take one sample and return the spans that have become final, in time order.
+
+        Raises
+        ------
+        DoodleError
+            If the sample is not later than the last one, not finite, or no rotation; the stream
+            goes on without it.
+        """
+        self._smoothing.push(time_s, position_m, orientation_xyzw)
+        self._given.append((time_s, drawing))
+        if time_s < self._look_s:
+            return []
+        self._look_s = time_s + BLOCK_S
+        self._extend(self._smoothing.ready())
+        return self._settled(time_s - self._settling_s)
+
+    def finish(self) -> list[Span]:
+        """Return the spans that were not final yet; the doodle is over."""
+        self._extend(self._smoothing.finish())
+        return self._settled(np.inf)
+
+    def _extend(self, new: Arrays | None) -> None:
+        if new is not None:
+            kept = self._arrays or tuple(array[:0] for array in new)
+            self._arrays = tuple(map(np.concatenate, zip(kept, new, strict=True)))
+
+    def _settled(self, settled_s: float) -> list[Span]:
+        """Return the spans that ended by then, and forget what plays no part any more."""
+        if not self._arrays or len(self._arrays[0]) < 2:
+            return []
+        motion = RigidMotion(*self._arrays)
+        drawing = self._drawing(motion.time_s)
+        runs = tokenize(motion, figure_height_m=self._figure_height_m, drawing=drawing)
+        first = next(
+            (i for i, run in enumerate(runs) if run.start_s > self._decided_s - _SAME_S), len(runs)
+        )
+        final: list[Span] = []
+        needed_s = settled_s
+        due_s = next((run.end_s for run in runs[first:] if run.token != STILL), np.inf)
+        if due_s <= settled_s:
+            spans = self._undecided(motion, runs, first)
+            final = [span for span in spans if span.end_s <= settled_s]
+            due_s = np.inf
+            if final:
+                self._decided_s = final[-1].end_s
+            if len(final) < len(spans):
+                needed_s = min(settled_s, spans[len(final)].start_s)
+                due_s = spans[len(final)].end_s
+        self._look_s = min(self._look_s, due_s + self._settling_s)
+        numbered = [
+            replace(
+                span,
+                first_run=span.first_run + self._forgotten,
+                last_run=span.last_run + self._forgotten,
+            )
+            for span in final
+        ]
+        if np.isfinite(settled_s):
+            self._forget(runs, needed_s)
+        return numbered
+
+    def _undecided(self, motion: RigidMotion, runs: Sequence[TokenRun], first: int) -> list[Span]:
+        """Return the spans of the runs from ``first`` on; the ones before are decided."""
+        spans = self._spot(motion, runs)
+        if all(span.first_run >= first or span.last_run <= first for span in spans):
+            return [span for span in spans if span.first_run >= first]
+        # What is decided looks otherwise by now, but it is decided.
+        return [
+            replace(span, first_run=span.first_run + first, last_run=span.last_run + first)
+            for span in self._spot(motion, runs[first:])
+        ]
+
+    def _drawing(self, time_s: FloatArray) -> BoolArray:
+        """Return whether the user drew at each of the motion's times."""
+        times, drawing = zip(*self._given, strict=True)
+        before = np.searchsorted(times, time_s + 1e-9, side="right") - 1
+        return np.array(drawing)[np.maximum(before, 0)]
+
+    def _forget(self, runs: Sequence[TokenRun], needed_s: float) -> None:
+        """Forget the motion before the first run that may still be part of an action."""
+        time_s = self._arrays[0]
+        old_s = max(needed_s - MEMORY_S, self._decided_s)
+        moving = (run.start_s for run in runs if run.token != STILL and run.end_s > old_s + _SAME_S)
+        self._decided_s = max(self._decided_s, min(next(moving, needed_s), needed_s))
+        cut = int(np.searchsorted(time_s, self._decided_s - _CONTEXT_S))
+        if cut == 0:
+            return
+        self._forgotten += sum(run.last <= cut for run in runs)
+        self._arrays = tuple(array[cut:] for array in self._arrays)
+        times = [given_s for given_s, _ in self._given]
+        del self._given[: max(int(np.searchsorted(times, time_s[cut])) - 1, 0)]
