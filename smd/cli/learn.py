@@ -155,17 +155,22 @@ def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
             tokens = reading.count(len(sequence), "token")
             yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
     if learned.mandatory:
-        yield "  must occur, in this order:"
+        yield from _tokens(learned)
     else:
-        yield "  the examples show several ways to draw it"
-    for tokens_there in learned.mandatory:
-        yield f"    {' or '.join(map(str, sorted(tokens_there)))}"
+        yield "  warning: no movement is in all examples; they show several ways to draw it"
+    yield f"  pattern: {learned.pattern}"
+
+
+def _tokens(learned: LearnedPattern) -> Iterator[str]:
+    """Yield lines on what must occur and what may."""
+    yield "  must occur, in this order:"
+    for tokens in learned.mandatory:
+        yield f"    {' or '.join(map(str, sorted(tokens)))}"
     needed = frozenset().union(*learned.mandatory)
     optional = [str(token) for token in learned.pattern.tokens() if token not in needed]
     shown = ", ".join(optional[:SHOWN_TOKENS])
     more = f" and {len(optional) - SHOWN_TOKENS} more" if len(optional) > SHOWN_TOKENS else ""
     yield f"  may occur as well: {shown or 'nothing else'}{more}"
-    yield f"  pattern: {learned.pattern}"
 
 
 def _rests(files: list[Path], doodles: list[Doodle], figure_height_m: float) -> Iterator[str]:

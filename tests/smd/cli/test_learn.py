@@ -202,7 +202,7 @@ def _missing(files, takes):
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        (_nothing_shared, r"walk_3\.csv: expected a movement that all examples share"),
+        (_nothing_shared, r"walk_3\.csv: expected a movement that another example has"),
         (_still, r"still\.csv: .*stillness"),
         (_lost, r"lost\.csv: expected one performance.*tracking was lost from"),
         (_short, r"short\.csv"),
@@ -260,6 +260,12 @@ def test_a_hundred_examples_are_learned(run_smd, takes, tmp_path):
     (file,) = takes("bow", 1000)
     _, out, _ = run_smd("parse", file, "--library", folder)
     assert " bow " in out
+
+
+def test_examples_of_two_ways_to_draw_it_are_learned_with_a_warning(run_smd, takes, tmp_path):
+    files = [*takes("turn_left", 0, 1), *takes("walk", 3, 4)]
+    code, out, _ = run_smd("learn", "bow", *files, "--library", tmp_path / "mine")
+    assert (code, "warning: no movement is in all examples" in out) == (0, True)
 
 
 def test_a_recording_with_a_long_rest_is_asked_about(run_smd, takes, tmp_path):
