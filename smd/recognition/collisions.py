@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from itertools import combinations
 from typing import Literal
 
+from smd.geometry.arrays import BoolArray
 from smd.recognition import pattern as ast
 from smd.recognition.languages import (
     Word,
@@ -18,7 +18,7 @@ from smd.recognition.languages import (
     word_without,
 )
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import token_distance
+from smd.recognition.places import UNLIKE, token_distances
 from smd.recognition.tokens import Token
 
 Kind = Literal["equal", "contained", "shared", "part", "near"]
@@ -82,7 +82,7 @@ def collisions(patterns: Mapping[str, Pattern], *, within: int = 1) -> tuple[Col
         By action.
     within
         Edits up to which two actions are near; with 0, near ones are not listed. Replacing a token
-        is one edit if the two are less than a right angle apart (`token_distance`), else two.
+        is one edit if the two are less than a right angle apart (`token_distances`), else two.
     """
     return _worst_first(patterns, combinations(patterns, 2), within)
 
@@ -107,7 +107,7 @@ def _collision(
     a: str, pattern_a: Pattern, b: str, pattern_b: Pattern, within: int
 ) -> Collision | None:
     """Return the worst that holds of a pair."""
-    nearest = nearest_words(pattern_a, pattern_b, most=within, replaceable=_is_like)
+    nearest = nearest_words(pattern_a, pattern_b, most=within, replaceable=_are_like)
     if nearest and nearest.distance == 0:
         return _overlap(a, pattern_a, b, pattern_b, nearest.first)
     for part, part_pattern, whole, whole_pattern in (
@@ -160,10 +160,9 @@ def _overlap(a: str, pattern_a: Pattern, b: str, pattern_b: Pattern, both: Word)
     )
 
 
-@cache
-def _is_like(a: Token, b: Token) -> bool:
-    """Tell whether one token may be taken for another."""
-    return token_distance(a, b) < 1.0
+def _are_like(tokens: Sequence[Token], others: Sequence[Token]) -> BoolArray:
+    """Return which tokens may be taken for which others."""
+    return token_distances(tokens, others) < UNLIKE
 
 
 def _shown(word: Word) -> str:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import Place, Stroke, laid_side_by_side, token_distance
+from smd.recognition.places import UNLIKE, Place, Stroke, laid_side_by_side, token_distances
 from smd.recognition.simplification import Group, simplified
 from smd.recognition.tokens import STILL, Token
 
@@ -57,25 +55,73 @@ def generalized(examples: Sequence[Sequence[Stroke]]) -> tuple[Group, ...]:
     return simplified([*groups, *_few(between)]) if groups else ()
 
 
-def pattern_of(groups: Sequence[Group]) -> Pattern:
-    """Return groups, one mandatory at least, as a pattern."""
+def ways_of(examples: Sequence[Sequence[Stroke]]) -> list[tuple[Group, ...]]:
+    """Return the ways in which a gesture is drawn: as few as have a mandatory place each.
+
+    One, as `generalized` gives it, where all examples share a place. If not, those that share the
+    fullest one (the larger movement, if several are as full) are taken apart from the others, and
+    so on: each example is accepted by one of the ways.
+    """
+    groups = generalized(examples)
+    if groups:
+        return [groups]
+    places = laid_side_by_side(examples)
+    fullest = max(places, key=lambda place: (_count(place) * _moves(place), place.weight))
+    parts: tuple[list[Sequence[Stroke]], list[Sequence[Stroke]]] = ([], [])
+    for example, stroke in zip(examples, fullest.strokes, strict=True):
+        parts[stroke is None].append(example)
+    if not all(parts):  # a place all have, but a trifle: the first example goes alone
+        parts = ([examples[0]], list(examples[1:]))
+    return [way for part in parts for way in ways_of(part)]
+
+
+def pattern_of(ways: Sequence[Sequence[Group]]) -> Pattern:
+    """Return ways, each of groups of which one is mandatory at least, as a pattern."""
+    return Pattern(ast.Choice(tuple(_sequence(groups) for groups in ways)))
+
+
+def _sequence(groups: Sequence[Group]) -> ast.Node:
+    """Return groups as an expression."""
     parts = []
     for group in groups:
         tokens = sorted(group.tokens, key=_plain_first)
         parts.append(ast.Repeat(ast.Choice(tuple(tokens)), optional=group.optional))
-    return Pattern(ast.Sequence(tuple(parts)))
+    return ast.Sequence(tuple(parts))
 
 
 def odd_one_out(examples: Sequence[Sequence[Stroke]]) -> int:
     """Return the example whose largest movement is least like those of the others."""
     main = [main_token(strokes) for strokes in examples]
-    far = [sum(token_distance(token, other) for other in main) for token in main]
-    return int(np.argmax(far))
+    return int(token_distances(main, main).sum(axis=1).argmax())
+
+
+def stranger(examples: Sequence[Sequence[Stroke]]) -> int | None:
+    """Return an example none of whose movements is like one of any other example, if there is one.
+
+    The one whose largest movement is least like those of the others comes first.
+    """
+    large = [{s.token for s in one if s.weight >= MANDATORY_SHARE} for one in examples]
+    odd = odd_one_out(examples)
+    for index in (odd, *(i for i in range(len(examples)) if i != odd)):
+        others = set().union(*(large[i] for i in range(len(examples)) if i != index))
+        if (token_distances(tuple(large[index]), tuple(others)) >= UNLIKE).all():
+            return index
+    return None
 
 
 def main_token(strokes: Sequence[Stroke]) -> Token:
     """Return the token of a sequence's largest movement."""
     return max(strokes, key=lambda stroke: stroke.weight).token
+
+
+def _count(place: Place) -> int:
+    """Return how many sequences have something at a place."""
+    return sum(stroke is not None for stroke in place.strokes)
+
+
+def _moves(place: Place) -> bool:
+    """Tell whether what stands at a place moves."""
+    return STILL not in place.tokens
 
 
 def _is_mandatory(place: Place) -> bool:

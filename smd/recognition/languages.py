@@ -6,12 +6,10 @@ equal neighbours, since the repetition of a token does not matter.
 
 from __future__ import annotations
 
-import operator
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import product
 
 import numpy as np
 
@@ -21,6 +19,7 @@ from smd.recognition.pattern import Pattern, merged
 from smd.recognition.tokens import Token
 
 Word = tuple[Token, ...]
+Replaceable = Callable[[Sequence[Token], Sequence[Token]], BoolArray]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +42,7 @@ def nearest_words(
     b: Pattern,
     *,
     most: int,
-    replaceable: Callable[[Token, Token], bool] = lambda ours, theirs: True,
+    replaceable: Replaceable = lambda tokens, others: np.ones((len(tokens), len(others)), bool),
 ) -> NearestWords | None:
     """Return the least edit distance between any string of one pattern and any of the other.
 
@@ -56,7 +55,8 @@ def nearest_words(
     most
         How far to look, in edits.
     replaceable
-        Whether one edit replaces a token by another; if not, it takes two.
+        For tokens of the one and of the other pattern, ``(n, m)``: whether one edit replaces the
+        first by the second; if not, it takes two.
 
     Returns
     -------
@@ -133,10 +133,20 @@ class _Walk:
     def is_start(self) -> BoolArray:
         return np.arange(len(self.reads)) == len(self.reads) - 1
 
-    def readers(self) -> dict[Token, BoolArray]:
-        """Return for each token of the pattern which states read it."""
-        tokens = set().union(*self.reads)
-        return {token: np.array([token in reads for reads in self.reads]) for token in tokens}
+
+@lru_cache(maxsize=256)
+def _readers(walk: _Walk) -> tuple[tuple[Token, ...], np.ndarray]:
+    """Return the t tokens of a walk and ``(t, p + 1)`` float32: 1 where a state reads a token."""
+    tokens = tuple(sorted(set().union(*walk.reads)))
+    rows = [[token in reads for reads in walk.reads] for token in tokens]
+    return tokens, np.array(rows, dtype=np.float32)
+
+
+@lru_cache(maxsize=256)
+def _ways_out(walk: _Walk) -> list[list[tuple[int, Token]]]:
+    """Return for each state the states that may follow it, with each token they read."""
+    plain = [sorted(reads, key=_plain) for reads in walk.reads]
+    return [[(int(s), t) for s in np.flatnonzero(row) for t in plain[s]] for row in walk.step]
 
 
 @lru_cache(maxsize=256)
@@ -153,15 +163,8 @@ def _extra(ours: _Walk, theirs: _Walk) -> Word | None:
     """Return the shortest string of one walk that is none of the other."""
     step = [_bits(row) for row in theirs.step]
     leave = _bits(theirs.leave)
-    readers = {token: _bits(column) for token, column in theirs.readers().items()}
-    ways = [
-        [
-            (int(s), token)
-            for s in np.flatnonzero(row)
-            for token in sorted(ours.reads[s], key=_plain)
-        ]
-        for row in ours.step
-    ]
+    readers = {token: _bits(row) for token, row in zip(*_readers(theirs), strict=True)}
+    ways = _ways_out(ours)
     start = len(ways) - 1
     followed: list[list[int]] = [[] for _ in ways]
     queue: deque[tuple[int, int, Word]] = deque([(start, 1 << (len(step) - 1), ())])
@@ -203,28 +206,30 @@ def _nearest(
     a: _Walk,
     b: _Walk,
     most: int,
-    replaceable: Callable[[Token, Token], bool] = operator.eq,
+    replaceable: Replaceable | None = None,
 ) -> NearestWords | None:
     """Return the nearest strings of two walks, at most ``most`` edits apart."""
     step_a, step_b = a.step.astype(np.float32), b.step.astype(np.float32)
-    readers_a, readers_b = a.readers(), b.readers()
-    alike, like = np.zeros((2, len(a.reads), len(b.reads)), bool)
-    for token in readers_a.keys() & readers_b.keys():
-        alike |= readers_a[token][:, None] & readers_b[token]
-    if most:
-        for ours, theirs in product(readers_a, readers_b):
-            if replaceable(ours, theirs):
-                like |= readers_a[ours][:, None] & readers_b[theirs]
+    (tokens_a, rows_a), (tokens_b, rows_b) = _readers(a), _readers(b)
+    known = {token: i for i, token in enumerate(tokens_b)}
+    same = np.zeros((len(tokens_a), len(tokens_b)), np.float32)
+    for i, token in enumerate(tokens_a):
+        if token in known:
+            same[i, known[token]] = 1.0
+    alike = rows_a.T @ same @ rows_b > 0
+    like = alike
+    if most and replaceable:
+        like = rows_a.T @ replaceable(tokens_a, tokens_b).astype(np.float32) @ rows_b > 0
     goal = a.leave[:, None] & b.leave
     reached = a.is_start[:, None] & b.is_start
     layers = [reached]
     for distance in range(most + 1):
         while True:
             if (reached & goal).any():
-                first, second = _traced(
-                    a, b, (alike, like), replaceable, layers, np.argwhere(reached & goal)[0]
+                end = np.argwhere(reached & goal)[0]
+                return NearestWords(
+                    distance, *_traced(a, b, alike | like, replaceable, layers, end)
                 )
-                return NearestWords(distance, first, second)
             more = reached | (_stepped(reached, step_a, step_b) & alike)
             if (more == reached).all():
                 break
@@ -246,26 +251,20 @@ def _stepped(reached: BoolArray, step_a: np.ndarray, step_b: np.ndarray) -> Bool
 def _traced(
     a: _Walk,
     b: _Walk,
-    pairs: tuple[BoolArray, BoolArray],
-    replaceable: Callable[[Token, Token], bool],
+    paired: BoolArray,
+    replaceable: Replaceable | None,
     layers: list[BoolArray],
     end: np.ndarray,
 ) -> tuple[Word, Word]:
     """Return the strings of a way back from a pair of states to the two starts."""
-    alike, like = pairs
     p, q = (int(state) for state in end)
     first: list[Token] = []
     second: list[Token] = []
     while layer := next(k for k, reached in enumerate(layers) if reached[p, q]):
         before = layers[layer - 1]
         both = before & a.step[:, p, None] & b.step[:, q]
-        if both.any() and (alike | like)[p, q]:
-            common = [(token, token) for token in a.reads[p] & b.reads[q]] or [
-                (ours, theirs)
-                for ours, theirs in product(a.reads[p], b.reads[q])
-                if replaceable(ours, theirs)
-            ]
-            ours, theirs = min(common, key=lambda pair: (_plain(pair[0]), _plain(pair[1])))
+        if both.any() and paired[p, q]:
+            ours, theirs = _pair(a.reads[p], b.reads[q], replaceable)
             first.append(ours)
             second.append(theirs)
             p, q = (int(state) for state in np.argwhere(both)[0])
@@ -276,6 +275,19 @@ def _traced(
             second.append(min(b.reads[q], key=_plain))
             q = int((before[p] & b.step[:, q]).argmax())
     return merged(tuple(first[::-1])), merged(tuple(second[::-1]))
+
+
+def _pair(
+    tokens: frozenset[Token], others: frozenset[Token], replaceable: Replaceable | None
+) -> tuple[Token, Token]:
+    """Return the plainest token of both, or else a token and one that may replace it."""
+    if common := tokens & others:
+        token = min(common, key=_plain)
+        return token, token
+    assert replaceable is not None  # else nothing but the same is paired
+    rows, columns = sorted(tokens, key=_plain), sorted(others, key=_plain)
+    i, j = np.argwhere(replaceable(rows, columns))[0]
+    return rows[i], columns[j]
 
 
 def _plain(token: Token) -> tuple[int, Token]:

@@ -10,9 +10,10 @@ import numpy as np
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.errors import DoodleError, LearningError
 from smd.recognition.average import average_doodle
-from smd.recognition.generalization import generalized, main_token, odd_one_out, pattern_of
+from smd.recognition.generalization import generalized, main_token, pattern_of, stranger, ways_of
 from smd.recognition.pattern import Pattern
 from smd.recognition.places import Stroke
+from smd.recognition.simplification import Group
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun
 from smd.smoothing import WINDOW_S, smooth
@@ -33,7 +34,9 @@ class LearnedPattern:
     spans_s : of each example, when its gesture begins and ends, on its doodle's clock.
     average : the mean of the examples' gestures.
     average_sequence : its tokens; empty if it took no part.
-    mandatory : the tokens of each place that every string has, from first to last.
+    mandatory : the tokens of each place that every string has, from first to last; empty where
+        there are several ways.
+    ways : how many ways of drawing the gesture the pattern is a choice of.
     """
 
     pattern: Pattern
@@ -43,13 +46,15 @@ class LearnedPattern:
     average: Doodle
     average_sequence: tuple[Token, ...]
     mandatory: tuple[frozenset[Token], ...]
+    ways: int
 
     def __str__(self) -> str:
         """Return the pattern and its source in one line."""
         count = len(self.names)
         source = f"{count} examples ({', '.join(self.names)})" if count > 1 else self.names[0]
         extra = " and their average" if self.average_sequence else ""
-        return f"{self.pattern}  learned from {source}{extra}"
+        ways = f", {self.ways} ways to draw it" if self.ways > 1 else ""
+        return f"{self.pattern}  learned from {source}{extra}{ways}"
 
 
 def learn_pattern(
@@ -61,7 +66,9 @@ def learn_pattern(
     """Learn the pattern of a gesture from examples (section 4.3 of the paper [1]_).
 
     The examples and their average doodle are tokenized; what all sequences share is mandatory, and
-    all else optional (`generalized`). Every example, and the average, is so accepted. Rest before
+    all else optional (`generalized`). Where they share no movement in common, though each has some
+    with another, the pattern is a choice of several ways to draw the gesture (`ways_of`). Every
+    example, and the average, is so accepted. Rest before
     and after the gesture is no part of it, and a pause within is optional where an example has
     one. The average of one example says nothing new, and one that shares nothing with its
     examples (which differ in time or side) is like none of them: these take no part.
@@ -78,8 +85,8 @@ def learn_pattern(
     Raises
     ------
     LearningError
-        If there is no example, if one is too short or never moves, or if one has nothing in
-        common with the others.
+        If there is no example, if one is too short or never moves, or if one has no movement in
+        common with any other.
 
     References
     ----------
@@ -96,19 +103,20 @@ def learn_pattern(
     average = average_doodle(gestures, figure_height_m=figure_height_m)
     examples = [_strokes(moving) for moving in runs]
     mean = _strokes(without_rest(doodle_runs(average, figure_height_m))) if len(runs) > 1 else []
-    groups = generalized([mean, *examples]) if mean else ()
-    if not groups:
-        mean, groups = [], generalized(examples)
-    if not groups:
-        raise _nothing_in_common(called, examples)
+    ways = [generalized([mean, *examples])] if mean else []
+    if not any(ways):
+        mean, ways = [], ways_of(examples)
+    if len(ways) > 1 and (odd := stranger(examples)) is not None:
+        raise _nothing_in_common(called, examples, odd)
     return LearnedPattern(
-        pattern=pattern_of(groups),
+        pattern=pattern_of(ways),
         names=called,
         sequences=tuple(tuple(stroke.token for stroke in strokes) for strokes in examples),
         spans_s=spans_s,
         average=average,
         average_sequence=tuple(stroke.token for stroke in mean),
-        mandatory=tuple(group.tokens for group in groups if not group.optional),
+        mandatory=_mandatory(ways),
+        ways=len(ways),
     )
 
 
@@ -163,12 +171,20 @@ def _strokes(runs: Sequence[TokenRun]) -> list[Stroke]:
     ]
 
 
-def _nothing_in_common(names: Sequence[str], examples: Sequence[Sequence[Stroke]]) -> LearningError:
-    """Return the error that names the example that is least like the others."""
-    odd = odd_one_out(examples)
+def _mandatory(ways: Sequence[Sequence[Group]]) -> tuple[frozenset[Token], ...]:
+    """Return the tokens of the mandatory groups of the only way; none if there are several."""
+    if len(ways) > 1:
+        return ()
+    return tuple(group.tokens for group in ways[0] if not group.optional)
+
+
+def _nothing_in_common(
+    names: Sequence[str], examples: Sequence[Sequence[Stroke]], odd: int
+) -> LearningError:
+    """Return the error that names the example that is like no other."""
     others = sorted({str(main_token(s)) for i, s in enumerate(examples) if i != odd})
     return LearningError(
-        f"{names[odd]}: expected a movement that all examples share, got mainly "
+        f"{names[odd]}: expected a movement that another example has, got mainly "
         f"{main_token(examples[odd])} where the others have mainly {', '.join(others)}",
         odd,
     )

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray
-from smd.recognition.tokens import Direction, Token
+from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.rotations import normalized
+from smd.recognition.tokenizer import DIRECTIONS, NONE
+from smd.recognition.tokens import Token
+
+UNLIKE = 1.0 - 1e-9
+"""Tokens at this distance or more have nothing in common; the sums of shares round."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,19 +58,23 @@ class Place:
         return None not in self.strokes
 
 
-def token_distance(a: Token, b: Token) -> float:
-    """Return how unlike two tokens are, in [0, 1].
+def token_distances(tokens: Sequence[Token], others: Sequence[Token]) -> FloatArray:
+    """Return ``(n, m)``: how unlike n tokens are to m others, in [0, 1].
 
     The mean over translation and rotation, where either token has them, of the angle between the
     directions, 1 from a right angle on and where one of them has none. Stillness is like nothing
     else.
     """
-    parts = [
-        _apart(ours, theirs)
-        for ours, theirs in ((a.translation, b.translation), (a.rotation, b.rotation))
-        if any(ours) or any(theirs)
-    ]
-    return sum(parts) / len(parts) if parts else 0.0
+    total, parts = np.zeros((2, len(tokens), len(others)))
+    for ours, theirs in zip(_bins(tokens), _bins(others), strict=True):
+        total += _apart()[np.ix_(ours, theirs)]
+        parts += (ours[:, None] != NONE) | (theirs != NONE)
+    return total / np.maximum(parts, 1.0)
+
+
+def token_distance(a: Token, b: Token) -> float:
+    """Return how unlike two tokens are, in [0, 1], as `token_distances` does."""
+    return float(token_distances((a,), (b,))[0, 0])
 
 
 def laid_side_by_side(sequences: Sequence[Sequence[Stroke]]) -> tuple[Place, ...]:
@@ -107,12 +117,26 @@ def laid_side_by_side(sequences: Sequence[Sequence[Stroke]]) -> tuple[Place, ...
     return tuple(Place(tuple(column[i] for i in back)) for column in columns)
 
 
-def _apart(a: Direction, b: Direction) -> float:
-    """Return the angle between directions over a right one, at most 1; 1 if only one is none."""
-    if not any(a) or not any(b):
-        return float(any(a) or any(b))
-    cosine = np.dot(a, b) / np.sqrt(np.dot(a, a) * np.dot(b, b))
-    return float(min(np.arccos(np.clip(cosine, -1.0, 1.0)) / (0.5 * np.pi), 1.0))
+def _bins(tokens: Sequence[Token]) -> IntArray:
+    """Return ``(2, n)``: the bins of the tokens' translations and of their rotations."""
+    pairs = [(_INDEX[token.translation], _INDEX[token.rotation]) for token in tokens]
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+
+
+_INDEX = {direction: index for index, direction in enumerate(DIRECTIONS)}
+
+
+@cache
+def _apart() -> FloatArray:
+    """Return ``(27, 27)``: the angle between directions over a right one, at most 1.
+
+    It is 1 where only one of them is none, 0 where both are.
+    """
+    units = normalized(np.array(DIRECTIONS, dtype=np.float64))
+    angle = np.arccos(np.clip(units @ units.T, -1.0, 1.0)) / (0.5 * np.pi)
+    apart = np.minimum(angle, 1.0)
+    np.fill_diagonal(apart, 0.0)
+    return apart
 
 
 def _aligned(
@@ -151,7 +175,7 @@ def _ways(
         ways.append((cost[i - 1][j] + passed[i - 1], i - 1, None))
     if j:
         ways.append((cost[i][j - 1] + alone[j - 1], None, j - 1))
-    if i and j and unlike[i - 1, j - 1] < 1.0:
+    if i and j and unlike[i - 1, j - 1] < UNLIKE:
         both = float(unlike[i - 1, j - 1]) * (passed[i - 1] + alone[j - 1])
         ways.append((cost[i - 1][j - 1] + both, i - 1, j - 1))
     return ways
@@ -161,13 +185,11 @@ def _mean_distances(
     columns: Sequence[Sequence[Stroke | None]], sequence: Sequence[Stroke]
 ) -> FloatArray:
     """Return ``(columns, items)``: the mean distance of a column's tokens to each item's."""
-    known: dict[tuple[Token, Token], float] = {}
-    mean = np.ones((len(columns), len(sequence)))
-    for i, column in enumerate(columns):
-        tokens = [stroke.token for stroke in column if stroke]
-        for j, stroke in enumerate(sequence):
-            for token in tokens:
-                if (token, stroke.token) not in known:
-                    known[token, stroke.token] = token_distance(token, stroke.token)
-            mean[i, j] = sum(known[token, stroke.token] for token in tokens) / len(tokens)
-    return mean
+    held = [[stroke.token for stroke in column if stroke] for column in columns]
+    tokens = tuple(dict.fromkeys(token for column in held for token in column))
+    place = {token: i for i, token in enumerate(tokens)}
+    share = np.zeros((len(columns), len(tokens)))
+    for i, column in enumerate(held):
+        for token in column:
+            share[i, place[token]] += 1.0 / len(column)
+    return share @ token_distances(tokens, [stroke.token for stroke in sequence])
