@@ -344,3 +344,22 @@ def test_a_folder_of_other_things_is_not_made_a_library(run_smd, takes, tmp_path
 def test_the_shipped_library_is_whole(run_smd):
     code, out, err = run_smd("library", "check")
     assert (code, err, "0 faults" in out) == (0, "", True)
+
+
+def test_real_gestures_learned_from_three_are_found_in_a_fourth(run_smd, shared_data, tmp_path):
+    from actions_library.library import load_library
+    from smd.formats import read_recording
+    from smd.recognition import Recognizer
+
+    gestures = {"swipe_right": "g07", "swipe_left": "g08", "rotate_ccw": "g06"}
+    files = {
+        name: sorted((shared_data / "gestures").glob(f"{code}_f1_s05_e*.csv"))
+        for name, code in gestures.items()
+    }
+    for name, takes in files.items():
+        assert run_smd("learn", name, *takes[:3], "--library", tmp_path / "my")[0] == 0
+    recognizer = Recognizer(load_library(tmp_path / "my"))
+    for name, takes in files.items():
+        doodle = read_recording(takes[3]).doodles[0]
+        assert recognizer.rank(doodle)[0].action == name
+        assert [span.action for span in recognizer.spot(doodle)] == [name]
