@@ -17,13 +17,13 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cache
+from itertools import product
 from math import factorial
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.polynomial import polyder, polyval
+from numpy.polynomial.polynomial import polyder
 from numpy.typing import ArrayLike
 
 from smd.geometry.arrays import FloatArray, IntArray
@@ -156,14 +156,16 @@ def _window_rotvecs(q: FloatArray, centre: IntArray, half: int) -> FloatArray:
 
 # 1 - cos(x) over x^2, and x - sin(x) over x^3, as power series in x^2; they alternate and 20 terms
 # are exact in double precision up to a whole turn.
-_A, _B = (
-    [
-        np.array(polyder([(-1.0) ** k / factorial(2 * k + first) for k in range(20)], n), float)
-        for n in range(3)
-    ]
-    for first in (2, 3)
-)
-"""Each series with its first two derivatives."""
+def _series() -> FloatArray:
+    """Return the coefficients of both, each with its first two derivatives ``(20, 6)``."""
+    columns = np.zeros((6, 20))
+    for column, (first, order) in zip(columns, product((2, 3), range(3)), strict=True):
+        terms = [(-1.0) ** k / factorial(2 * k + first) for k in range(20)]
+        column[: 20 - order] = polyder(terms, order)
+    return columns.T
+
+
+_SERIES = _series()
 
 
 def body_rates(
@@ -183,8 +185,11 @@ def body_rates(
     s = np.sum(phi * phi, axis=-1, keepdims=True)
     s1 = 2.0 * np.sum(phi * d1, axis=-1, keepdims=True)
     s2 = 2.0 * np.sum(d1 * d1 + phi * d2, axis=-1, keepdims=True)
-    a, a1, a2 = _composed(_A, s, s1, s2)
-    b, b1, b2 = _composed(_B, s, s1, s2)
+    series = np.zeros((len(s), _SERIES.shape[1]))
+    for terms in _SERIES[::-1]:  # Horner's scheme, all six at once
+        series = series * s + terms
+    a, a1, a2 = _composed(series[:, :3], s1, s2)
+    b, b1, b2 = _composed(series[:, 3:], s1, s2)
     u = _cross(phi, d1)
     u1 = _cross(phi, d2)
     u2 = _cross(d1, d2) + _cross(phi, d3)
@@ -205,8 +210,8 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _composed(
-    series: Sequence[FloatArray], s: FloatArray, s1: FloatArray, s2: FloatArray
+    series: FloatArray, s1: FloatArray, s2: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return f(s(t)) and its first two time derivatives, f and its own given by power series."""
-    f, f1, f2 = (np.asarray(polyval(s, each), dtype=np.float64) for each in series)
+    """Return f(s(t)) and its time derivatives from f, f' and f'' at s ``(n, 3)``."""
+    f, f1, f2 = (series[:, i, None] for i in range(3))
     return f, f1 * s1, f2 * s1**2 + f1 * s2

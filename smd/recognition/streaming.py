@@ -23,7 +23,7 @@ Spotter: TypeAlias = Callable[[RigidMotion, Sequence[TokenRun]], Sequence[Span]]
 HORIZON_S = 0.5
 """A span is final this long after its last movement, at the latest."""
 
-BLOCK_S = 0.1
+BLOCK_S = 0.25
 """The stream looks at what has come this often, and when a span falls due."""
 
 MEMORY_S = 4.0
