@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.errors import DoodleError, ScoreError
@@ -15,7 +13,7 @@ if TYPE_CHECKING:
     from actions_library.library import Library
     from laban import EffortModel
     from smd.doodle import Doodle, Recording
-    from smd.recognition.pattern import Pattern
+    from smd.recognition.spotting import Recognizer
     from smd.score import Phrase, Score
     from smd.transfer.performance import Performance
 
@@ -37,7 +35,7 @@ def parse(
     recording
         What was drawn.
     library
-        The actions to recognise; only their patterns are read.
+        The actions to recognise; their clips are not read.
     figure_height_m
         Height of the figurine that the prop stands for, positive.
     devices
@@ -54,17 +52,18 @@ def parse(
         If the figure height is not positive, or a device is not in the recording.
     """
     from laban import load_effort_model
+    from smd.recognition.spotting import Recognizer
     from smd.score import Part, Score
 
     empty = Score((), recording.source, figure_height_m=figure_height_m)
-    patterns = {action.name: action.pattern for action in library.actions if action.pattern}
+    recognizer = Recognizer(library, figure_height_m=figure_height_m)
     model = load_effort_model()
     parts, warnings = [], []
     for device in _performing(recording, devices):
         phrases: list[Phrase] = []
         for doodle in recording.of(device):
             try:
-                phrases.extend(_phrases(doodle, figure_height_m, patterns, model))
+                phrases.extend(_phrases(doodle, recognizer, model))
             except DoodleError as error:
                 warnings.append(f"left out: {error}")
         parts.append(Part(device, tuple(phrases)))
@@ -87,21 +86,14 @@ def _performing(recording: Recording, devices: Collection[str] | None) -> tuple[
     return played or known
 
 
-def _phrases(
-    doodle: Doodle, figure_height_m: float, patterns: Mapping[str, Pattern], model: EffortModel
-) -> Iterator[Phrase]:
+def _phrases(doodle: Doodle, recognizer: Recognizer, model: EffortModel) -> Iterator[Phrase]:
     """Yield what one doodle says; times to the millisecond, as a Score's file keeps them."""
     from laban import read_effort
-    from smd.recognition.recognizer import recognize
-    from smd.recognition.tokenizer import tokenize
     from smd.score import Alternative, Phrase
     from smd.smoothing import smooth
 
     motion = smooth(doodle)
-    before = np.searchsorted(doodle.time_s, motion.time_s + 1e-9, side="right") - 1
-    drawing = doodle.drawing[before]
-    runs = tokenize(motion, figure_height_m=figure_height_m, drawing=drawing)
-    for span in recognize(runs, patterns):
+    for span in recognizer.spot_runs(motion, recognizer.runs_of(doodle, motion)):
         yield Phrase(
             action=span.action,
             start_s=round(span.start_s, 3),

@@ -16,6 +16,7 @@ from smd.geometry.rotations import (
     multiply,
     quaternion_from_rotvec,
     rotate,
+    rotvec_from_quaternion,
 )
 from smd.recognition.embedding import (
     Poses,
@@ -43,6 +44,10 @@ _SLOWEST = 0.3
 _SLOWEST_RAD_S = 0.5
 """What counts as no movement, in figure heights, heights and radians a second: smaller sizes are
 not blown up to the common one, or noise would have a shape."""
+
+_LEVER = 0.25
+"""Figure heights from the prop's centre at which hands turn it. How far that carries the prop is
+added to its sizes: what turning may explain is no size of its own."""
 
 _RADIAN_IN_SHAPE = 0.4
 """How far turning by a radian is, in a shape whose positions lie at distance 1 from their mean."""
@@ -77,9 +82,11 @@ def traits_of(motion: RigidMotion, *, figure_height_m: float = DEFAULT_FIGURE_HE
     """
     poses = scaled(sample_poses(motion, SAMPLES), 1.0 / figure_height_m)
     extent = extent_m(poses)
-    alike = scaled(poses, 1.0 / (extent + _SMALLEST_EXTENT))
     heading = heading_frame(poses)
     own = _mean_orientation(poses)
+    turned = rotvec_from_quaternion(multiply(inverse(own), poses.orientation_xyzw))
+    lever = _LEVER * _rms(np.linalg.norm(turned, axis=-1))
+    alike = scaled(poses, 1.0 / (extent + _SMALLEST_EXTENT + lever))
 
     at_s = np.linspace(motion.time_s[0], motion.time_s[-1], SAMPLES)
     velocity = rotate(inverse(motion.orientation_xyzw), motion.velocity_m_s) / figure_height_m
@@ -91,7 +98,8 @@ def traits_of(motion: RigidMotion, *, figure_height_m: float = DEFAULT_FIGURE_HE
     heading_from_prop = multiply(inverse(heading), poses.orientation_xyzw)
 
     duration_s = float(motion.time_s[-1] - motion.time_s[0])
-    sizes = (duration_s, extent, duration_s * speed.mean(), duration_s * rate.mean())
+    way = duration_s * speed.mean()
+    sizes = (duration_s, extent + lever, way + lever, duration_s * rate.mean())
     return Traits(
         courses=(
             _shape(alike, heading),

@@ -26,7 +26,9 @@ PRIOR_COSTS = 3.0
 """How many examples the usual cost counts for, in a library's threshold and in an action's."""
 
 SLACK, SLACK_SHARE = 4.5, 1.6
-"""A gesture is rejected where it costs more than this, and so many times an example's cost."""
+"""A gesture is rejected where it costs more than so many times an example's cost and a slack. The
+slack is for three examples or fewer; it shrinks with the root of their number, as what they leave
+open does."""
 
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
 _QUICKEST_FIRST = tuple(
@@ -90,9 +92,14 @@ def verifiers(exemplars: Sequence[Exemplar | None]) -> tuple[Verifier | None, ..
     own = [_left_out_costs(one) if one else np.zeros(0) for one in exemplars]
     library = _pooled(np.concatenate([np.zeros(0), *own]), USUAL_COST)
     return tuple(
-        Verifier(one, SLACK + SLACK_SHARE * _pooled(costs, library)) if one else None
+        Verifier(one, _limit(len(one), _pooled(costs, library))) if one else None
         for one, costs in zip(exemplars, own, strict=True)
     )
+
+
+def _limit(examples: int, usual: float) -> float:
+    """Return the cost above which a gesture is rejected."""
+    return SLACK_SHARE * usual + SLACK * float(np.sqrt(3.0 / max(examples, 3)))
 
 
 def _left_out_costs(exemplar: Exemplar) -> FloatArray:
