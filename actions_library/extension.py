@@ -9,9 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from actions_library.exemplars import write_exemplar
-from actions_library.library import IDLE, Library, load_library, write_library
+from actions_library.folder import EXEMPLARS_FOLDER, load_library, write_library
+from actions_library.library import IDLE, Library
 from actions_library.manifest import MANIFEST, manifest_text
-from actions_library.storage import CLIPS_FOLDER, EXEMPLARS_FOLDER, write_clip_file
+from actions_library.storage import CLIPS_FOLDER, write_clip_file
 from smd.character.clip import Clip
 from smd.errors import LibraryError
 from smd.files import replacing

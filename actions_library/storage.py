@@ -7,18 +7,12 @@ layer, without composing anything.
 
 from __future__ import annotations
 
-import shutil
-import tempfile
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
 
-from actions_library.exemplars import write_exemplar
-from actions_library.library import Library
-from actions_library.manifest import MANIFEST, manifest_text, read_manifest
 from actions_library.usd_skel import (
     ANIMATION,
     bind_animation,
@@ -33,9 +27,8 @@ from smd.character.character import Character
 from smd.character.clip import STAGES, Clip
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError, LibraryError
-from smd.recognition.action import Action
 
-CHARACTER_FILE, CLIPS_FOLDER, EXEMPLARS_FOLDER = "character.usdc", "clips", "exemplars"
+CHARACTER_FILE, CLIPS_FOLDER = "character.usdc", "clips"
 CHARACTER_SCHEMA, CLIP_SCHEMA, VERSION = "smd.character", "smd.clip", 1
 
 _CLIP_DATA = "smd"
@@ -141,62 +134,6 @@ def read_clip_file(path: Path, name: str, skeleton: Skeleton) -> Clip:
         raise LibraryError(f"{path}: {error}") from error
     except KeyError as error:
         raise LibraryError(f"{path}: {animation}: expected custom data {error}") from error
-
-
-def write_folder(
-    folder: Path,
-    *,
-    name: str,
-    character: Character,
-    clips: Mapping[str, Clip],
-    actions: tuple[Action, ...],
-) -> Library:
-    """Write a whole library; see `actions_library.library.write_library`."""
-    if folder.exists() and not (folder / MANIFEST).is_file() and any(folder.iterdir()):
-        raise LibraryError(f"{folder}: expected a library or an empty folder, found other files")
-    stems = dict(zip(clips, unique_identifiers(clips), strict=True))
-    files = {clip: f"{CLIPS_FOLDER}/{stem}.usdc" for clip, stem in stems.items()}
-    exemplar_files = {
-        action.name: f"{EXEMPLARS_FOLDER}/{stems.get(action.name)}.npz"
-        for action in actions
-        if action.exemplar is not None
-    }
-    library = Library(name, folder, actions, CHARACTER_FILE, files, exemplar_files)
-    try:
-        temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    except OSError as error:
-        raise LibraryError(f"{folder}: cannot be written: {error.strerror}") from error
-    try:
-        fresh = temporary / "new"
-        (fresh / CLIPS_FOLDER).mkdir(parents=True)
-        write_character_file(fresh / CHARACTER_FILE, character)
-        for action in actions:
-            clip = clips[action.name]
-            if clip.skeleton.joints != character.skeleton.joints:
-                raise LibraryError(f"clip {action.name!r}: expected the character's skeleton")
-            write_clip_file(fresh / files[action.name], clip, f"../{CHARACTER_FILE}")
-            if action.exemplar is not None:
-                (fresh / EXEMPLARS_FOLDER).mkdir(exist_ok=True)
-                write_exemplar(fresh / exemplar_files[action.name], action.exemplar)
-        (fresh / MANIFEST).write_text(manifest_text(library), encoding="utf-8", newline="\n")
-        _exchange(fresh, folder, temporary / "old")
-    except OSError as error:
-        raise LibraryError(f"{folder}: cannot be written: {error.strerror}") from error
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-    return read_manifest(folder)
-
-
-def _exchange(fresh: Path, folder: Path, old: Path) -> None:
-    """Rename ``fresh`` to ``folder``, whose present content goes to ``old``, or back on failure."""
-    if folder.exists():
-        folder.replace(old)
-    try:
-        fresh.replace(folder)
-    except OSError:
-        if old.exists():
-            old.replace(folder)
-        raise
 
 
 def _sign(layer: Sdf.Layer, schema: str, more: dict[str, Any] | None = None) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from actions_library.library import load_library
+from actions_library.folder import load_library
 from benchmarks.process import machine
 from smd.doodle import Doodle
 from smd.score import Part, Phrase, Score

@@ -23,7 +23,8 @@ from statistics import median
 
 import numpy as np
 
-from actions_library.library import Library, load_library
+from actions_library.folder import load_library
+from actions_library.library import Library
 from benchmarks.process import machine
 from benchmarks.takes import long_recording
 from smd.character.clip import Clip

@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from actions_library.library import load_library
+    from actions_library.folder import load_library
     from exporters import write
     from smd.doodle import Doodle, Recording
     from smd.errors import SmdError
@@ -33,7 +33,7 @@ _HOME = {
     "SmdError": "smd.errors",
     "SourceFrame": "smd.formats",
     "animate": "smd.pipeline",
-    "load_library": "actions_library.library",
+    "load_library": "actions_library.folder",
     "parse": "smd.pipeline",
     "read_recording": "smd.formats",
     "read_score": "smd.score",

@@ -9,7 +9,8 @@ from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.examples import with_examples
-from actions_library.library import Library, write_library
+from actions_library.folder import write_library
+from actions_library.library import Library
 from smd.errors import SmdError
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from actions_library.authoring.body import BODY_TRIANGLES, humanoid_character
 from actions_library.authoring.humanoid import HEIGHT_M, humanoid_skeleton
-from actions_library.library import load_library
+from actions_library.folder import load_library
 from smd.character.character import Character, Mesh
 from smd.character.kinematics import forward_kinematics
 from smd.character.skinning import skin_points

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from actions_library.library import Library, load_library, write_library
+from actions_library.folder import load_library, write_library
+from actions_library.library import Library
 from smd.errors import LibraryError
 from smd.recognition.action import Action
 from smd.recognition.exemplar import Exemplar, exemplar_of

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdSkel
 
-from actions_library.library import Library, load_library, write_library
+from actions_library.folder import load_library, write_library
+from actions_library.library import Library
 from smd.errors import LibraryError
 from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
@@ -117,7 +118,7 @@ def test_every_file_plays_on_its_own(library):
 
 def test_reading_the_patterns_loads_no_usd():
     script = (
-        "import sys; from actions_library.library import load_library;"
+        "import sys; from actions_library.folder import load_library;"
         "load_library(sys.argv[1]); assert not [m for m in sys.modules if m.startswith('pxr')]"
     )
     folder = Path(__file__).parents[2] / "tests"

@@ -73,7 +73,7 @@ def refused(result: tuple[int, str, str], *said: str) -> str:
 
 
 def test_a_new_library_has_the_action_the_character_and_idling(my):
-    from actions_library.library import load_library
+    from actions_library.folder import load_library
 
     library = load_library(my)
     assert library.name == "my"
@@ -136,7 +136,7 @@ def test_explaining_prints_the_terms_of_each_phrase(run_smd, takes, my):
 
 
 def test_the_clip_is_the_one_asked_for(run_smd, takes, my):
-    from actions_library.library import load_library
+    from actions_library.folder import load_library
 
     code, out, _ = run_smd("learn", "fling", *takes("bow", 0), "--library", my, "--clip", "walk")
     assert (code, "clip: walk of the library 'humanoid'" in out) == (0, True)
@@ -347,7 +347,7 @@ def test_the_shipped_library_is_whole(run_smd):
 
 
 def test_real_gestures_learned_from_three_are_found_in_a_fourth(run_smd, shared_data, tmp_path):
-    from actions_library.library import load_library
+    from actions_library.folder import load_library
     from smd.formats import read_recording
     from smd.recognition import Recognizer
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from actions_library.library import Library, load_library
+from actions_library.folder import load_library
+from actions_library.library import Library
 from smd.character.clip import Clip
 from smd.character.skeleton import Skeleton
 from smd.geometry.rotations import quaternion_about

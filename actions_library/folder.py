@@ -1,0 +1,124 @@
+"""A library's folder: read, and written whole or not at all."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from actions_library.library import Library
+from actions_library.manifest import MANIFEST, manifest_text, read_manifest
+from smd.errors import LibraryError
+
+if TYPE_CHECKING:
+    from smd.character.character import Character
+    from smd.character.clip import Clip
+    from smd.recognition.action import Action
+
+EXEMPLARS_FOLDER = "exemplars"
+
+
+def load_library(path: Path | str | None = None) -> Library:
+    """Read a library's actions and patterns; its character and clips follow when asked for.
+
+    Parameters
+    ----------
+    path
+        The folder; None for the humanoid that is shipped.
+
+    Raises
+    ------
+    LibraryError
+        If there is no such folder, or its ``library.json`` is not one of ours.
+    """
+    folder = Path(__file__).with_name("humanoid") if path is None else Path(path)
+    return read_manifest(folder)
+
+
+def write_library(
+    folder: Path | str,
+    *,
+    name: str,
+    character: Character,
+    clips: Mapping[str, Clip],
+    actions: tuple[Action, ...],
+) -> Library:
+    """Write a library's folder, in the place of one that is there, and return it.
+
+    Everything is written beside the folder and renamed into place, exemplars of the actions too.
+
+    Parameters
+    ----------
+    folder
+        Where; its parent must exist. What is there already must be a library, or be empty.
+    name
+        Of the library.
+    character
+        What the clips move.
+    clips
+        A clip for each action, by the action's name; all of the character's skeleton.
+    actions
+        With unique names.
+
+    Raises
+    ------
+    LibraryError
+        If an action has no clip, the folder holds something else, or it cannot be written.
+    """
+    from actions_library.exemplars import write_exemplar
+    from actions_library.storage import (
+        CHARACTER_FILE,
+        CLIPS_FOLDER,
+        write_character_file,
+        write_clip_file,
+    )
+    from actions_library.usd_skel import unique_identifiers
+
+    folder, actions = Path(folder), tuple(actions)
+    if folder.exists() and not (folder / MANIFEST).is_file() and any(folder.iterdir()):
+        raise LibraryError(f"{folder}: expected a library or an empty folder, found other files")
+    stems = dict(zip(clips, unique_identifiers(clips), strict=True))
+    files = {clip: f"{CLIPS_FOLDER}/{stem}.usdc" for clip, stem in stems.items()}
+    exemplar_files = {
+        action.name: f"{EXEMPLARS_FOLDER}/{stems.get(action.name)}.npz"
+        for action in actions
+        if action.exemplar is not None
+    }
+    library = Library(name, folder, actions, CHARACTER_FILE, files, exemplar_files)
+    try:
+        temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    except OSError as error:
+        raise LibraryError(f"{folder}: cannot be written: {error.strerror}") from error
+    try:
+        fresh = temporary / "new"
+        (fresh / CLIPS_FOLDER).mkdir(parents=True)
+        write_character_file(fresh / CHARACTER_FILE, character)
+        for action in actions:
+            clip = clips[action.name]
+            if clip.skeleton.joints != character.skeleton.joints:
+                raise LibraryError(f"clip {action.name!r}: expected the character's skeleton")
+            write_clip_file(fresh / files[action.name], clip, f"../{CHARACTER_FILE}")
+            if action.exemplar is not None:
+                (fresh / EXEMPLARS_FOLDER).mkdir(exist_ok=True)
+                write_exemplar(fresh / exemplar_files[action.name], action.exemplar)
+        (fresh / MANIFEST).write_text(manifest_text(library), encoding="utf-8", newline="\n")
+        _exchange(fresh, folder, temporary / "old")
+    except OSError as error:
+        raise LibraryError(f"{folder}: cannot be written: {error.strerror}") from error
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+    return read_manifest(folder)
+
+
+def _exchange(fresh: Path, folder: Path, old: Path) -> None:
+    """Rename ``fresh`` to ``folder``, whose present content goes to ``old``, or back on failure."""
+    if folder.exists():
+        folder.replace(old)
+    try:
+        fresh.replace(folder)
+    except OSError:
+        if old.exists():
+            old.replace(folder)
+        raise
