@@ -107,6 +107,8 @@ class Recognizer:
         Height of the figurine that the prop stands for.
     costs
         What the tokens of a span are weighed by.
+    tolerance
+        Factor on every action's limit: below 1 more is rejected, above it less.
     """
 
     def __init__(
@@ -115,13 +117,14 @@ class Recognizer:
         *,
         figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
         costs: Costs = DEFAULT_COSTS,
+        tolerance: float = 1.0,
     ) -> None:
         every = actions if isinstance(actions, Iterable) else actions.actions
         patterns = {action.name: action.pattern for action in every if action.pattern}
         exemplars = {action.name: action.exemplar for action in every if action.pattern}
         self.names = tuple(patterns)
         self._bank = compile_library(patterns)
-        self._verifiers = verifiers([exemplars[name] for name in self.names])
+        self._verifiers = verifiers([exemplars[name] for name in self.names], tolerance=tolerance)
         self._figure_height_m = figure_height_m
         self._costs = costs
 

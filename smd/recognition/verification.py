@@ -82,17 +82,19 @@ class Verifier:
         return terms
 
 
-def verifiers(exemplars: Sequence[Exemplar | None]) -> tuple[Verifier | None, ...]:
+def verifiers(
+    exemplars: Sequence[Exemplar | None], *, tolerance: float = 1.0
+) -> tuple[Verifier | None, ...]:
     """Return a verifier for each action of a library; None for one that has no examples.
 
     The limit follows from what examples cost when each is left out in turn: of the action, pooled
     with those of the whole library, which say how alike this user's gestures are, and with a
-    usual cost, all as means of logarithms.
+    usual cost, all as means of logarithms. It is multiplied by ``tolerance``.
     """
     own = [_left_out_costs(one) if one else np.zeros(0) for one in exemplars]
     library = _pooled(np.concatenate([np.zeros(0), *own]), USUAL_COST)
     return tuple(
-        Verifier(one, _limit(len(one), _pooled(costs, library))) if one else None
+        Verifier(one, tolerance * _limit(len(one), _pooled(costs, library))) if one else None
         for one, costs in zip(exemplars, own, strict=True)
     )
 
