@@ -12,18 +12,21 @@ import os
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from smd.doodle import Doodle
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.errors import LearningError
 from smd.formats import read_recording
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition import Recognizer, learn_action
+from smd.recognition.action import Action
 from smd.recognition.alignment import distance_table
 from smd.recognition.embedding import embed_poses, sample_poses
+from smd.recognition.exemplar import exemplar_of
+from smd.recognition.learning import doodle_runs, without_rest
 from smd.recognition.traits import SAMPLES, traits_of
 from smd.smoothing import smooth
 
@@ -90,8 +93,10 @@ def ours(data: Gestures, learned: IntArray, tested: IntArray) -> IntArray:
     for label in np.unique(data.label[learned]):
         own = [data.doodles[i] for i in learned[data.label[learned] == label]]
         try:
-            actions.append(learn_action(str(label), own))
-        except LearningError:  # examples with nothing in common: learned from the first alone
+            few = len(own) <= EXAMPLES  # a pattern of dozens of people would say little, slowly
+            learn = learn_action if few else _learned_anyhow
+            actions.append(learn(str(label), own))
+        except LearningError:  # examples with nothing in common
             actions.append(_learned_anyhow(str(label), own))
     recognizer = Recognizer(actions)
     found = []
@@ -101,16 +106,14 @@ def ours(data: Gestures, learned: IntArray, tested: IntArray) -> IntArray:
     return np.array(found)
 
 
-def _learned_anyhow(name: str, doodles: Sequence[Doodle]):  # type: ignore[no-untyped-def]
-    """Return an action with the examples that have a pattern in common, the first at least."""
-    kept = [doodles[0]]
-    for doodle in doodles[1:]:
-        try:
-            learn_action(name, [*kept, doodle])
-            kept.append(doodle)
-        except LearningError:
-            continue
-    return learn_action(name, kept)
+def _learned_anyhow(name: str, doodles: Sequence[Doodle]) -> Action:
+    """Return an action with all examples' exemplar, and the pattern of the first alone."""
+    kept = []
+    for doodle in doodles:
+        runs = without_rest(doodle_runs(doodle, DEFAULT_FIGURE_HEIGHT_M))
+        if runs:
+            kept.append(traits_of(smooth(doodle).between(runs[0].start_s, runs[-1].end_s)))
+    return replace(learn_action(name, doodles[:1]), exemplar=exemplar_of(kept))
 
 
 def warping(courses: FloatArray, data: Gestures, learned: IntArray, tested: IntArray) -> IntArray:

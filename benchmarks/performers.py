@@ -50,13 +50,18 @@ def performer(index: int) -> tuple[Person, np.random.Generator]:
 
 
 def drifting(doodle: Doodle, rng: np.random.Generator) -> Doodle:
-    """Return a doodle whose player slowly turns to and fro, the whole arm with the body."""
+    """Return a doodle whose player slowly turns to and fro, with the prop in place.
+
+    Every step of the way is turned as the player is then; turning the whole way about a point
+    would carry a prop a metre away faster than a resting hand ever moves.
+    """
     period_s, phase = rng.uniform(*DRIFT_S), rng.uniform(0.0, 2.0 * np.pi)
     angle = DRIFT_RAD * np.sin(2.0 * np.pi * doodle.time_s / period_s + phase)
     turn = quaternion_about([0.0, 1.0, 0.0], angle)
+    way = np.cumsum(rotate(turn[1:], np.diff(doodle.position_m, axis=0)), axis=0)
     return replace(
         doodle,
-        position_m=rotate(turn, doodle.position_m),
+        position_m=np.concatenate([doodle.position_m[:1], doodle.position_m[0] + way]),
         orientation_xyzw=multiply(turn, doodle.orientation_xyzw),
     )
 
