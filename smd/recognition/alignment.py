@@ -95,7 +95,9 @@ def distances(
     return np.array(found, dtype=np.float64)
 
 
-def distance_table(a: FloatArray, b: FloatArray, *, band: float | None = None) -> FloatArray:
+def distance_table(
+    a: FloatArray, b: FloatArray, *, band: float | None = None, most: float = np.inf
+) -> FloatArray:
     """Return the `distance` of each of p courses to each of m, ``(p, m)``, in one call of C code.
 
     Parameters
@@ -104,6 +106,8 @@ def distance_table(a: FloatArray, b: FloatArray, *, band: float | None = None) -
         ``(p, n, d)`` and ``(m, n, d)``, d at least 2, finite.
     band
         As in `distance`.
+    most
+        A distance above it is of no interest: it may come out as infinity, and sooner.
     """
     from dtaidistance import dtw
 
@@ -112,6 +116,9 @@ def distance_table(a: FloatArray, b: FloatArray, *, band: float | None = None) -
         return np.zeros((p, m))
     stacked = np.ascontiguousarray(np.concatenate([a, b]), dtype=np.float64)
     options = _options(stacked[0], stacked[-1], band)
+    if np.isfinite(most):
+        # A little more, or rounding would lose a distance that is just as far.
+        options["max_dist"] = 1e-9 + 1.000001 * most * float(np.sqrt(stacked.shape[1]))
     root = dtw.distance_matrix_fast(
         stacked, block=((0, p), (p, p + m)), compact=True, parallel=False, **options
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
@@ -28,7 +29,10 @@ as visibly as one that turns by a radian (the tokenizer weighs them alike)."""
 
 
 class Poses(NamedTuple):
-    """Where a prop is and how it is turned: ``position_m (n, 3)``, ``orientation_xyzw (n, 4)``."""
+    """Where a prop is and how it is turned, over time.
+
+    ``position_m (…, n, 3)`` and ``orientation_xyzw (…, n, 4)``; leading axes: several gestures.
+    """
 
     position_m: FloatArray
     orientation_xyzw: FloatArray
@@ -57,41 +61,44 @@ def start_frame(poses: Poses) -> FloatArray:
 
 
 def heading_frame(poses: Poses) -> FloatArray:
-    """Return the frame whose up is the world's and whose front is the prop's, ``(4,)``.
+    """Return the frame whose up is the world's and whose front is the prop's, ``(…, 4)``.
 
     Seen from above, the front is the mean of the poses' fronts, as long as they are; poses that
     look up or down so have little say. If they cancel, it is the front of the first pose.
     """
     q = poses.orientation_xyzw
-    mean = rotate(q, np.broadcast_to([0.0, 0.0, 1.0], (len(q), 3))).mean(axis=0)
+    mean = rotate(q, np.broadcast_to([0.0, 0.0, 1.0], (*q.shape[:-1], 3))).mean(axis=-2)
     # 0.1: a full turn leaves next to nothing, and its direction is noise.
-    level = np.hypot(mean[0], mean[2]) > 0.1
-    heading = np.arctan2(mean[0], mean[2]) if level else heading_rad(q[0])
+    level = np.hypot(mean[..., 0], mean[..., 2]) > 0.1
+    mean_heading = np.arctan2(mean[..., 0], mean[..., 2])
+    heading = np.where(level, mean_heading, heading_rad(q[..., 0, :]))
     return quaternion_about([0.0, 1.0, 0.0], heading)
 
 
 def seen_from(poses: Poses, frame_xyzw: FloatArray) -> Poses:
-    """Return poses in a turned frame, ``(4,)``, the mean of the positions at its origin."""
-    frame_from_world = inverse(frame_xyzw)
+    """Return poses in a turned frame, ``(…, 4)``, the mean of the positions at its origin."""
+    frame_from_world = inverse(frame_xyzw)[..., None, :]
     position = rotate(frame_from_world, poses.position_m)
     return Poses(
-        position - position.mean(axis=0), multiply(frame_from_world, poses.orientation_xyzw)
+        position - position.mean(axis=-2, keepdims=True),
+        multiply(frame_from_world, poses.orientation_xyzw),
     )
 
 
-def extent_m(poses: Poses) -> float:
-    """Return the root mean square distance of the positions from their mean."""
-    spread = poses.position_m - poses.position_m.mean(axis=0)
-    return float(np.sqrt(np.mean(np.sum(spread * spread, axis=-1))))
+def extent_m(poses: Poses) -> FloatArray:
+    """Return the root mean square distance of the positions from their mean, ``(…)``."""
+    spread = poses.position_m - poses.position_m.mean(axis=-2, keepdims=True)
+    return np.sqrt(np.mean(np.sum(spread * spread, axis=-1), axis=-1))
 
 
-def scaled(poses: Poses, factor: float) -> Poses:
-    """Return poses with the positions larger by a factor."""
-    return Poses(poses.position_m * factor, poses.orientation_xyzw)
+def scaled(poses: Poses, factor: ArrayLike) -> Poses:
+    """Return poses with the positions larger by a factor, ``(…)``."""
+    by = np.asarray(factor, dtype=np.float64)[..., None, None]
+    return Poses(poses.position_m * by, poses.orientation_xyzw)
 
 
 def embed_poses(poses: Poses, *, metres_per_radian: float = METRES_PER_RADIAN) -> FloatArray:
-    """Return points ``(n, 12)`` whose squared distance adds that of positions and of rotations.
+    """Return points ``(…, n, 12)`` whose squared distance adds that of positions and of rotations.
 
     The last nine numbers are the rotation matrix times ``metres_per_radian / sqrt(2)``, since the
     Frobenius distance of the matrices of two rotations that differ by an angle ``a`` is
@@ -104,7 +111,8 @@ def embed_poses(poses: Poses, *, metres_per_radian: float = METRES_PER_RADIAN) -
     .. [1] D. Q. Huynh, "Metrics for 3D Rotations: Comparison and Analysis", Journal of
        Mathematical Imaging and Vision 35(2), 2009.
     """
-    matrices = matrix_from_quaternion(poses.orientation_xyzw).reshape(-1, 9)
+    matrices = matrix_from_quaternion(poses.orientation_xyzw)
+    matrices = matrices.reshape(*matrices.shape[:-2], 9)
     return np.concatenate(
         [poses.position_m, matrices * (metres_per_radian / np.sqrt(2.0))], axis=-1
     )

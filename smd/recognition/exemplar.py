@@ -125,7 +125,9 @@ def exemplar_of(examples: Sequence[Traits]) -> Exemplar:
     return Exemplar(courses, measures, apart)
 
 
-def nearest_distances(gestures: FloatArray, examples: FloatArray, index: int) -> FloatArray:
+def nearest_distances(
+    gestures: FloatArray, examples: FloatArray, index: int, *, most: float = np.inf
+) -> FloatArray:
     """Return ``(p,)``: how far each of p gestures is from the nearest of m examples, warped.
 
     Parameters
@@ -134,9 +136,11 @@ def nearest_distances(gestures: FloatArray, examples: FloatArray, index: int) ->
         ``(p, SAMPLES, d)`` and ``(m, SAMPLES, d)``, one course of each.
     index
         Which of `COURSES` it is.
+    most
+        A distance above it is of no interest: it may come out as infinity, and sooner.
     """
     if COURSES[index] == "shape_heading":
         far = np.square(examples - examples.mean(axis=0)).sum(axis=(1, 2))
         central = examples[int(far.argmin())]
         gestures = fitted(gestures, central, facing_rad=FACING_RAD, askew_rad=ASKEW_RAD)
-    return np.asarray(distance_table(gestures, examples, band=BAND).min(axis=1))
+    return np.asarray(distance_table(gestures, examples, band=BAND, most=most).min(axis=1))

@@ -15,6 +15,9 @@ from smd.recognition.tokens import TokenRun
 MOST_STROKES = 4
 """How many strokes, with rests between them, one gesture has at most (a bow that is held has 2)."""
 
+STIR = 0.05
+"""Share of a gesture's largest run below which the runs at its ends are no part of it."""
+
 
 class Proposal(NamedTuple):
     """Runs ``first`` (included) to ``last`` (excluded) may be action ``action`` of a bank.
@@ -71,3 +74,20 @@ def between_rests(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> lis
             distance = least_costs(bank, read=read[part], skip=prices.skip[part])
             found += [Proposal(a, first, last, d) for a, d in enumerate(distance.tolist())]
     return found
+
+
+def without_stir(found: Sequence[Proposal], runs: Sequence[TokenRun]) -> list[Proposal]:
+    """Return the proposals without what the hand hardly stirs at their ends, each stretch once.
+
+    That is still or below `STIR`: a rest that is not quite one must not move where a gesture
+    begins and ends. Of an action's proposals for one stretch the nearest stays.
+    """
+    extent = np.array([run.travel_heights + run.turn_rad for run in runs])
+    tight: dict[tuple[int, int, int], Proposal] = {}
+    for one in found:
+        inside = extent[one.first : one.last]
+        meant = one.first + np.flatnonzero(inside >= STIR * inside.max())
+        one = one._replace(first=int(meant[0]), last=int(meant[-1]) + 1)
+        other = tight.get(one[:3], one)
+        tight[one[:3]] = min(one, other, key=lambda either: either.distance)
+    return list(tight.values())

@@ -17,12 +17,13 @@ from smd.recognition.costs import DEFAULT_COSTS, Costs, RunCosts, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import learn_pattern
-from smd.recognition.proposals import Proposal, between_rests, explaining
+from smd.recognition.proposals import Proposal, between_rests, explaining, without_stir
 from smd.recognition.recognizer import Span, recognize, with_loose_ends
 from smd.recognition.segmentation import Segment
+from smd.recognition.streaming import RecognitionStream
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
-from smd.recognition.traits import Traits, traits_of
+from smd.recognition.traits import Traits, traits_of, traits_of_parts
 from smd.recognition.verification import TERMS, verifiers
 from smd.smoothing import smooth
 
@@ -34,6 +35,9 @@ ACTION, UNEXPLAINED = 0.3, 20.0
 """What seeing an action costs, and what a second of movement costs that is left unexplained. That
 is more than any gesture within its limit costs: what looks like an action is taken for one, and
 what does not is rejected by the limit."""
+
+WORTH_NAMING = 2.0
+"""An action that costs more than so many times its limit is no alternative to another one."""
 
 
 class HasActions(Protocol):
@@ -143,7 +147,7 @@ class Recognizer:
         moving = [i for i, run in enumerate(runs) if run.token != STILL]
         if not moving or not self.names:
             return [Match(None, 0.0, 1.0)]
-        return self._matches(motion, runs, [(moving[0], moving[-1] + 1)])[0]
+        return self._matches(motion, runs, [(moving[0], moving[-1] + 1)], np.inf)[0]
 
     def spot(self, doodle: Doodle) -> list[Span]:
         """Find the actions in a doodle, in time order.
@@ -155,6 +159,10 @@ class Recognizer:
         """
         motion = smooth(doodle)
         return self.spot_runs(motion, self.runs_of(doodle, motion))
+
+    def stream(self) -> RecognitionStream:
+        """Return what finds the actions while a doodle is being drawn, sample by sample."""
+        return RecognitionStream(self.spot_runs, figure_height_m=self._figure_height_m)
 
     def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
         """Return the tokens of a doodle's smoothed motion; still where it was not drawn."""
@@ -176,7 +184,7 @@ class Recognizer:
         prices = run_costs(runs, self._costs)
         found = explaining(self._bank, runs, prices)
         found += between_rests(self._bank, runs, prices)
-        accepted = self._accepted(list(dict.fromkeys(found)), motion, runs, prices)
+        accepted = self._accepted(without_stir(found, runs), motion, runs, prices)
         movement_s = np.array([run.end_s - run.start_s for run in runs]) * ~prices.is_still
         explained_s = np.concatenate([[0.0], np.cumsum(movement_s)])
         chosen = best_cut(
@@ -190,7 +198,8 @@ class Recognizer:
         )
         segments = [Segment(*accepted[i][0][:3]) for i in chosen]
         whole = with_loose_ends(segments, runs)
-        matches = self._matches(motion, runs, [(one.first, one.last) for one in whole])
+        stretches = [(one.first, one.last) for one in whole]
+        matches = self._matches(motion, runs, stretches, WORTH_NAMING)
         return [
             _span(self.names[one.index], one, runs, ranked)
             for one, ranked in zip(whole, matches, strict=True)
@@ -204,7 +213,12 @@ class Recognizer:
         prices: RunCosts,
     ) -> list[tuple[Proposal, float]]:
         """Return the proposals that fit their action's examples, and what each costs."""
-        traits: dict[tuple[int, int], Traits] = {}
+        stretch = {}
+        for one in found:
+            (whole,) = with_loose_ends([Segment(*one[:3])], runs)
+            stretch[one] = whole.first, whole.last
+        each = list(dict.fromkeys(stretch.values()))
+        traits = dict(zip(each, self._traits(motion, runs, each), strict=True))
         accepted: list[tuple[Proposal, float]] = []
         for action, verifier in enumerate(self._verifiers):
             own = [one for one in found if one.action == action]
@@ -214,28 +228,29 @@ class Recognizer:
                 pays = np.array(gain) > self._costs.action
                 cost = np.where(pays, UNVERIFIED + UNVERIFIED_WRONG * wrong, np.inf)
             else:
-                gestures = []
-                for one in own:
-                    (whole,) = with_loose_ends([Segment(*one[:3])], runs)
-                    key = whole.first, whole.last
-                    if key not in traits:
-                        traits[key] = self._traits(motion, runs, *key)
-                    gestures.append(traits[key])
+                gestures = [traits[stretch[one]] for one in own]
                 cost = verifier.terms(gestures, wrong, verifier.limit).sum(axis=1)
                 cost[cost > verifier.limit] = np.inf
             accepted += [(o, c) for o, c in zip(own, cost.tolist(), strict=True) if c < np.inf]
         return accepted
 
     def _traits(
-        self, motion: RigidMotion, runs: Sequence[TokenRun], first: int, last: int
-    ) -> Traits:
-        part = motion.between(runs[first].start_s, runs[last - 1].end_s)
-        return traits_of(part, figure_height_m=self._figure_height_m)
+        self, motion: RigidMotion, runs: Sequence[TokenRun], stretches: Sequence[tuple[int, int]]
+    ) -> list[Traits]:
+        spans_s = [(runs[first].start_s, runs[last - 1].end_s) for first, last in stretches]
+        return traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m)
 
     def _matches(
-        self, motion: RigidMotion, runs: Sequence[TokenRun], stretches: Sequence[tuple[int, int]]
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        stretches: Sequence[tuple[int, int]],
+        beyond: float,
     ) -> list[list[Match]]:
-        """Weigh every action, and none, for stretches of runs; for each the best first."""
+        """Weigh every action, and none, for stretches of runs; for each the best first.
+
+        What costs more than ``beyond`` times its action's limit may come out as infinity.
+        """
         prices = run_costs(runs, self._costs)
         read = prices.of_reading(self._bank, runs)
         parts = [slice(*stretch) for stretch in stretches]
@@ -246,11 +261,11 @@ class Recognizer:
                 for part in parts
             ]
         ).reshape(len(parts), len(self.names))
-        gestures = [self._traits(motion, runs, *stretch) for stretch in stretches]
+        gestures = self._traits(motion, runs, stretches)
         terms = [
             np.stack([np.full(len(parts), UNVERIFIED), UNVERIFIED_WRONG * wrong[:, i]], axis=1)
             if verifier is None
-            else verifier.terms(gestures, wrong[:, i], np.inf)
+            else verifier.terms(gestures, wrong[:, i], beyond * verifier.limit)
             for i, verifier in enumerate(self._verifiers)
         ]
         limits = [
@@ -298,7 +313,7 @@ def _span(name: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[
         alternatives=tuple(
             (match.action, match.distance)
             for match in ranked
-            if match.action is not None and match.action != name
+            if match.action not in (None, name) and np.isfinite(match.distance)
         ),
     )
 

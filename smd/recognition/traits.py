@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import FloatArray
-from smd.geometry.resampling import interpolate_linear
+from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import (
     inverse,
     matrix_from_quaternion,
@@ -23,7 +24,6 @@ from smd.recognition.embedding import (
     embed_poses,
     extent_m,
     heading_frame,
-    sample_poses,
     scaled,
     seen_from,
 )
@@ -80,35 +80,71 @@ def traits_of(motion: RigidMotion, *, figure_height_m: float = DEFAULT_FIGURE_HE
     figure_height_m
         Height of the figurine that the prop stands for; lengths are counted in it.
     """
-    poses = scaled(sample_poses(motion, SAMPLES), 1.0 / figure_height_m)
+    whole = float(motion.time_s[0]), float(motion.time_s[-1])
+    return traits_of_parts(motion, [whole], figure_height_m=figure_height_m)[0]
+
+
+def traits_of_parts(
+    motion: RigidMotion,
+    spans_s: Sequence[tuple[float, float]],
+    *,
+    figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+) -> list[Traits]:
+    """Return the traits of parts of a motion, each as if it were alone, all at once.
+
+    Parameters
+    ----------
+    motion
+        Smooth.
+    spans_s
+        When each part begins and ends; it has the samples in between, at least one.
+    figure_height_m
+        Height of the figurine that the prop stands for; lengths are counted in it.
+    """
+    if not spans_s:
+        return []
+    spans = np.asarray(spans_s, dtype=np.float64)
+    time_s = motion.time_s
+    start_s = time_s[np.searchsorted(time_s, spans[:, 0] - 1e-9)]
+    end_s = time_s[np.searchsorted(time_s, spans[:, 1] + 1e-9, side="right") - 1]
+    at_s = np.linspace(start_s, end_s, SAMPLES, axis=-1)
+
+    poses = scaled(
+        Poses(
+            interpolate_linear(time_s, motion.position_m, at_s),
+            interpolate_rotation(time_s, motion.orientation_xyzw, at_s),
+        ),
+        1.0 / figure_height_m,
+    )
     extent = extent_m(poses)
     heading = heading_frame(poses)
     own = _mean_orientation(poses)
-    turned = rotvec_from_quaternion(multiply(inverse(own), poses.orientation_xyzw))
+    turned = rotvec_from_quaternion(multiply(inverse(own)[:, None], poses.orientation_xyzw))
     lever = _LEVER * _rms(np.linalg.norm(turned, axis=-1))
     alike = scaled(poses, 1.0 / (extent + _SMALLEST_EXTENT + lever))
 
-    at_s = np.linspace(motion.time_s[0], motion.time_s[-1], SAMPLES)
     velocity = rotate(inverse(motion.orientation_xyzw), motion.velocity_m_s) / figure_height_m
-    moving = interpolate_linear(motion.time_s, velocity, at_s)
-    turning = interpolate_linear(motion.time_s, motion.angular_velocity_rad_s, at_s)
+    moving = interpolate_linear(time_s, velocity, at_s)
+    turning = interpolate_linear(time_s, motion.angular_velocity_rad_s, at_s)
     speed, rate = (np.linalg.norm(v, axis=-1) for v in (moving, turning))
-    moving = moving / (_rms(speed) + _SLOWEST)
-    turning = turning * (_RADIAN_IN_FLOW / (_rms(rate) + _SLOWEST_RAD_S))
-    heading_from_prop = multiply(inverse(heading), poses.orientation_xyzw)
+    moving = moving / (_rms(speed) + _SLOWEST)[:, None, None]
+    turning = turning * (_RADIAN_IN_FLOW / (_rms(rate) + _SLOWEST_RAD_S))[:, None, None]
+    heading_from_prop = multiply(inverse(heading)[:, None], poses.orientation_xyzw)
 
-    duration_s = float(motion.time_s[-1] - motion.time_s[0])
-    way = duration_s * speed.mean()
-    sizes = (duration_s, extent + lever, way + lever, duration_s * rate.mean())
-    return Traits(
-        courses=(
-            _shape(alike, heading),
-            _shape(alike, own),
-            np.hstack([rotate(heading_from_prop, moving), rotate(heading_from_prop, turning)]),
-            np.hstack([moving, turning]),
+    duration_s = end_s - start_s
+    way = duration_s * speed.mean(axis=-1)
+    turns = duration_s * rate.mean(axis=-1)
+    sizes = np.stack([duration_s, extent + lever, way + lever, turns], axis=-1)
+    courses = (
+        _shape(alike, heading),
+        _shape(alike, own),
+        np.concatenate(
+            [rotate(heading_from_prop, moving), rotate(heading_from_prop, turning)], axis=-1
         ),
-        measures=np.log(np.asarray(sizes) + _FLOORS),
+        np.concatenate([moving, turning], axis=-1),
     )
+    measures = np.log(sizes + _FLOORS)
+    return [Traits(tuple(course[k] for course in courses), measures[k]) for k in range(len(spans))]
 
 
 def fitted(
@@ -167,18 +203,20 @@ def fitted(
 
 
 def _shape(poses: Poses, frame_xyzw: FloatArray) -> FloatArray:
-    """Return poses seen from a frame as points ``(n, 12)``: four vectors a sample."""
+    """Return poses seen from a frame as points ``(…, n, 12)``: four vectors a sample."""
     points = embed_poses(seen_from(poses, frame_xyzw), metres_per_radian=_RADIAN_IN_SHAPE)
     # From rows of the matrix to its columns, the prop's axes: vectors that a frame's turn turns.
-    axes = points[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9)
-    return np.hstack([points[:, :3], axes])
+    rows = points[..., 3:].reshape(*points.shape[:-1], 3, 3)
+    axes = np.swapaxes(rows, -1, -2).reshape(*points.shape[:-1], 9)
+    return np.concatenate([points[..., :3], axes], axis=-1)
 
 
 def _mean_orientation(poses: Poses) -> FloatArray:
-    """Return the unit quaternion nearest to all of the orientations, ``(4,)``."""
+    """Return the unit quaternion nearest to all of the orientations, ``(…, 4)``."""
     q = poses.orientation_xyzw
-    return np.asarray(np.linalg.eigh(q.T @ q)[1][:, -1], dtype=np.float64)
+    return np.asarray(np.linalg.eigh(np.swapaxes(q, -1, -2) @ q)[1][..., -1], dtype=np.float64)
 
 
-def _rms(values: FloatArray) -> float:
-    return float(np.sqrt(np.mean(values * values)))
+def _rms(values: FloatArray) -> FloatArray:
+    """Return the root mean square over the last axis."""
+    return np.sqrt(np.mean(values * values, axis=-1))

@@ -76,8 +76,10 @@ class Verifier:
             if not len(left):
                 break
             ours = np.stack([gestures[k].courses[i] for k in left.tolist()])
-            far = nearest_distances(ours, own.courses[COURSES[i]], i) / own.scale[i]
-            terms[left, 1 + i] = WEIGHTS[1 + i] * far
+            unit = WEIGHTS[1 + i] / own.scale[i]
+            room = float(most - total[left].min()) / unit
+            far = nearest_distances(ours, own.courses[COURSES[i]], i, most=room)
+            terms[left, 1 + i] = unit * far
             total[left] += terms[left, 1 + i]
         return terms
 
