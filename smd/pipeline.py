@@ -27,6 +27,7 @@ def parse(
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
     devices: Collection[str] | None = None,
+    tolerance: float = 1.0,
 ) -> Score:
     """Recognise the actions in a recording and read the Effort of each.
 
@@ -40,6 +41,9 @@ def parse(
         Height of the figurine that the prop stands for, positive.
     devices
         Those that perform; by default all but headsets (or the headset, where it is alone).
+    tolerance
+        How unlike an action's examples a gesture may be, positive: below 1 more is rejected,
+        above it less (docs/verification.md has the trade-off).
 
     Returns
     -------
@@ -56,7 +60,7 @@ def parse(
     from smd.score import Part, Score
 
     empty = Score((), recording.source, figure_height_m=figure_height_m)
-    recognizer = Recognizer(library, figure_height_m=figure_height_m)
+    recognizer = Recognizer(library, figure_height_m=figure_height_m, tolerance=tolerance)
     model = load_effort_model()
     parts, warnings = [], []
     for device in _performing(recording, devices):

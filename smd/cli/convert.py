@@ -23,6 +23,7 @@ def convert(
     ] = ".usdc",
     library: reading.LibraryFolder = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
+    tolerance: reading.Tolerance = 1.0,
     fps: reading.FramesPerSecond = 24.0,
     device: reading.Device = None,
     up: reading.Up = None,
@@ -49,7 +50,13 @@ def convert(
 
     def one(index: int, file: Path) -> None:
         recording = options.read(file)
-        score = smd.parse(recording, shelf, figure_height_m=figure_height, devices=device)
+        score = smd.parse(
+            recording,
+            shelf,
+            figure_height_m=figure_height,
+            devices=device,
+            tolerance=tolerance,
+        )
         score = replace(score, reading=options.pairs, library=str(library or ""))
         performance = smd.animate(score, recording, shelf, rate_hz=fps)
         smd.write(performance, outputs[index])

@@ -30,6 +30,7 @@ def parse(
     ] = False,
     library: reading.LibraryFolder = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
+    tolerance: reading.Tolerance = 1.0,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -53,7 +54,13 @@ def parse(
 
     def one(index: int, file: Path) -> None:
         recording = options.read(file)
-        score = smd.parse(recording, shelf, figure_height_m=figure_height, devices=device)
+        score = smd.parse(
+            recording,
+            shelf,
+            figure_height_m=figure_height,
+            devices=device,
+            tolerance=tolerance,
+        )
         score = replace(score, reading=options.pairs, library=str(library or ""))
         scores.append(score)
         if outputs:

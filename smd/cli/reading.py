@@ -51,6 +51,14 @@ FigureHeight = Annotated[
     float,
     typer.Option(help="Height in metres of the figurine the prop stands for; it sets the scale."),
 ]
+Tolerance = Annotated[
+    float,
+    typer.Option(
+        help="How unlike its examples a gesture may be: below 1 more is rejected, above it less.",
+        min=0.05,
+        max=20.0,
+    ),
+]
 FramesPerSecond = Annotated[
     float, typer.Option("--fps", help="Frames per second of the animation.", min=1.0, max=240.0)
 ]

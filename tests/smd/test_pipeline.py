@@ -71,6 +71,16 @@ def test_headsets_do_not_perform_unless_asked_for():
     assert [part.device for part in asked.performers] == ["Headset"]
 
 
+def test_tolerance_says_how_much_is_rejected():
+    recording = smd.read_recording(RECORDINGS / "postman.csv")
+    library = smd.load_library()
+    counts = [
+        len(smd.parse(recording, library, tolerance=tolerance).performers[0].phrases)
+        for tolerance in (0.05, 1.0)
+    ]
+    assert counts == [0, 7]
+
+
 def test_an_unknown_device_is_refused_by_name():
     recording = smd.read_recording(RECORDINGS / "duel.csv")
     with pytest.raises(ScoreError, match=r"knight, rival.*'nobody'"):
