@@ -31,8 +31,8 @@ slack is for three examples or fewer; it shrinks with the root of their number, 
 open does."""
 
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
-_QUICKEST_FIRST = tuple(
-    COURSES.index(name) for name in ("flow_heading", "shape_heading", "flow_prop", "shape_prop")
+_TELLING_FIRST = tuple(
+    COURSES.index(name) for name in ("shape_heading", "flow_heading", "flow_prop", "shape_prop")
 )
 
 _FREEDOM = 4.0
@@ -59,8 +59,9 @@ class Verifier:
         A course's term is its distance to the nearest example, as a multiple of what is usual; a
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
         its peak; the tokens' is ``wrong (p,)``, the edits from the pattern as a share of the
-        tokens. Each is multiplied by its weight, and none is negative. So the quickest come
-        first, and the rest are not looked for (`inf`) once the sum is above ``most``.
+        tokens. Each is multiplied by its weight, and none is negative. So the measures and
+        the most telling courses come first, and the rest are not looked for (`inf`) once the sum
+        is above ``most``.
         """
         own = self.exemplar
         terms = np.full((len(gestures), len(TERMS)), np.inf)
@@ -71,7 +72,7 @@ class Verifier:
         terms[:, _MEASURES] = _oddness((measures - own.centre) / own.spread)
         terms *= WEIGHTS
         total = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
-        for i in _QUICKEST_FIRST:
+        for i in _TELLING_FIRST:
             left = np.flatnonzero(total <= most)
             if not len(left):
                 break

@@ -130,3 +130,17 @@ def test_an_exemplar_survives_its_arrays(actions):
         for key, array in action.exemplar.to_arrays().items():
             assert np.array_equal(array, again.to_arrays()[key])
         assert np.array_equal(action.exemplar.scale, again.scale)
+
+
+def test_its_stream_finds_what_it_spots(player, recognizer):
+    doodle = take(*player, "bow", "jump", "turn_left").pause(1.0).doodle()
+    stream = recognizer.stream()
+    spans = []
+    for sample in zip(doodle.time_s, doodle.position_m, doodle.orientation_xyzw, strict=True):
+        spans += stream.push(*sample)
+    spans += stream.finish()
+    offline = recognizer.spot(doodle)
+    assert [span.action for span in spans] == [span.action for span in offline]
+    for ours, theirs in zip(spans, offline, strict=True):
+        assert ours.start_s == pytest.approx(theirs.start_s, abs=0.05)
+        assert ours.end_s == pytest.approx(theirs.end_s, abs=0.05)
