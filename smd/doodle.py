@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
 
@@ -137,11 +137,3 @@ class Recording:
     def of(self, device: str) -> tuple[Doodle, ...]:
         """Return the doodles of one device, in time order."""
         return tuple(doodle for doodle in self.doodles if doodle.device == device)
-
-    def only(self, *devices: str) -> Recording:
-        """Return the same recording with these devices alone."""
-        return replace(
-            self,
-            doodles=tuple(d for d in self.doodles if d.device in devices),
-            dropouts=tuple(d for d in self.dropouts if d.device in devices),
-        )

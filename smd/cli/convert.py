@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -47,17 +46,12 @@ def convert(
         require_known_suffix(path)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     shelf = smd.load_library(library)
+    understood = reading.understanding(
+        options, shelf, library, figure_height_m=figure_height, devices=device, tolerance=tolerance
+    )
 
     def one(index: int, file: Path) -> None:
-        recording = options.read(file)
-        score = smd.parse(
-            recording,
-            shelf,
-            figure_height_m=figure_height,
-            devices=device,
-            tolerance=tolerance,
-        )
-        score = replace(score, reading=options.pairs, library=str(library or ""))
+        recording, score = understood(file)
         performance = smd.animate(score, recording, shelf, rate_hz=fps)
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"

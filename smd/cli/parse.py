@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -50,18 +49,13 @@ def parse(
     outputs = targets(recordings, files, output, reading.SCORE_SUFFIX) if output else []
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     shelf = smd.load_library(library)
+    understood = reading.understanding(
+        options, shelf, library, figure_height_m=figure_height, devices=device, tolerance=tolerance
+    )
     scores: list[Score] = []
 
     def one(index: int, file: Path) -> None:
-        recording = options.read(file)
-        score = smd.parse(
-            recording,
-            shelf,
-            figure_height_m=figure_height,
-            devices=device,
-            tolerance=tolerance,
-        )
-        score = replace(score, reading=options.pairs, library=str(library or ""))
+        recording, score = understood(file)
         scores.append(score)
         if outputs:
             write_score(reading.beside(score, outputs[index]), outputs[index])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from actions_library.library import Library
     from smd.doodle import Doodle, Recording
     from smd.score import Score
 
@@ -99,6 +100,33 @@ class ReadingOptions:
         from smd.formats import SourceFrame, read_recording
 
         return read_recording(path, SourceFrame.from_options(**dict(self.pairs)))
+
+
+def understanding(
+    options: ReadingOptions,
+    library: Library,
+    library_folder: Path | None,
+    *,
+    figure_height_m: float,
+    devices: list[str] | None,
+    tolerance: float,
+) -> Callable[[Path], tuple[Recording, Score]]:
+    """Return what reads a recording and its Score; the Score keeps how it was read."""
+
+    def understood(file: Path) -> tuple[Recording, Score]:
+        import smd
+
+        recording = options.read(file)
+        score = smd.parse(
+            recording,
+            library,
+            figure_height_m=figure_height_m,
+            devices=devices,
+            tolerance=tolerance,
+        )
+        return recording, replace(score, reading=options.pairs, library=str(library_folder or ""))
+
+    return understood
 
 
 SCORE_SUFFIX = ".score.json"

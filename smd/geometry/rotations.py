@@ -119,15 +119,6 @@ def matrix_from_quaternion(q_xyzw: ArrayLike) -> FloatArray:
     return np.stack(columns, axis=-1)
 
 
-def quaternion_from_matrix(matrix: ArrayLike) -> FloatArray:
-    """Return unit quaternions of rotation matrices ``(..., 3, 3)``."""
-    from scipy.spatial.transform import Rotation
-
-    matrix = np.array(matrix, dtype=np.float64)
-    flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
-    return np.asarray(flat, dtype=np.float64).reshape(*matrix.shape[:-2], 4)
-
-
 def quaternion_from_euler(order: str, angles_rad: ArrayLike) -> FloatArray:
     """Return unit quaternions of Euler angles; ``order`` as in SciPy (capitals: intrinsic)."""
     from scipy.spatial.transform import Rotation

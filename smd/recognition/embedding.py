@@ -55,11 +55,6 @@ def sample_poses(source: Doodle | RigidMotion, samples: int = SAMPLES) -> Poses:
     )
 
 
-def start_frame(poses: Poses) -> FloatArray:
-    """Return the prop's own frame at the start, ``(4,)``: free of how the prop is held."""
-    return poses.orientation_xyzw[0]
-
-
 def heading_frame(poses: Poses) -> FloatArray:
     """Return the frame whose up is the world's and whose front is the prop's, ``(…, 4)``.
 
@@ -116,20 +111,3 @@ def embed_poses(poses: Poses, *, metres_per_radian: float = METRES_PER_RADIAN) -
     return np.concatenate(
         [poses.position_m, matrices * (metres_per_radian / np.sqrt(2.0))], axis=-1
     )
-
-
-def embed_velocities(
-    motion: RigidMotion,
-    samples: int = SAMPLES,
-    *,
-    metres_per_radian: float = METRES_PER_RADIAN,
-) -> FloatArray:
-    """Return velocities in the moving frame, ``(samples, 6)`` in m/s, at even times.
-
-    The prop's velocity as the prop sees it, and its body angular velocity times
-    ``metres_per_radian``: free of place, heading and of how the world is turned.
-    """
-    at_s = np.linspace(motion.time_s[0], motion.time_s[-1], samples)
-    velocity = rotate(inverse(motion.orientation_xyzw), motion.velocity_m_s)
-    both = np.concatenate([velocity, metres_per_radian * motion.angular_velocity_rad_s], axis=-1)
-    return interpolate_linear(motion.time_s, both, at_s)

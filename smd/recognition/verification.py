@@ -15,7 +15,7 @@ TERMS = ("tokens", *COURSES, *MEASURES)
 """What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
 
 WEIGHTS = np.array([1.0, 5.0, 0.5, 2.9, 1.7, 0.6, 0.8, 0.2, 0.3])
-"""What each term counts, fitted by maximum likelihood (``docs/verification.md``)."""
+"""What each term counts; ``docs/verification.md`` says where they come from."""
 WEIGHTS.flags.writeable = False
 
 USUAL_COST = 8.0

@@ -15,15 +15,12 @@ from smd.geometry.rotations import (
 from smd.recognition.embedding import (
     Poses,
     embed_poses,
-    embed_velocities,
     extent_m,
     heading_frame,
     sample_poses,
     scaled,
     seen_from,
-    start_frame,
 )
-from smd.smoothing import smooth
 from smd.synthetic.strokes import STEADY
 from smd.synthetic.takes import Take
 
@@ -70,16 +67,6 @@ def test_distances_do_not_depend_on_the_world(seed):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_in_the_start_frame_neither_place_nor_any_turn_matters(seed):
-    rng = np.random.default_rng(seed)
-    poses, turn = random_poses(rng), normalized(rng.normal(size=4))
-    other = moved(poses, rng.normal(size=3), turn)
-    a, b = (embed_poses(seen_from(p, start_frame(p))) for p in (poses, other))
-    np.testing.assert_allclose(a, b, atol=1e-12)
-    np.testing.assert_allclose(a[:, :3].mean(axis=0), 0.0, atol=1e-12)
-
-
-@pytest.mark.parametrize("seed", range(5))
 def test_in_the_heading_frame_a_turn_about_up_does_not_matter_and_others_do(seed):
     rng = np.random.default_rng(seed)
     small = quaternion_from_rotvec(0.3 * rng.normal(size=(20, 3)))
@@ -117,28 +104,3 @@ def test_the_extent_is_free_of_place_and_grows_with_size():
     assert extent_m(moved(poses, [1.0, 2.0, 3.0], IDENTITY_XYZW)) == pytest.approx(extent)
     assert extent_m(scaled(poses, 3.0)) == pytest.approx(3.0 * extent)
     assert extent_m(Poses(np.array([[1.0, 0, 0], [-1.0, 0, 0]]), poses[1])) == pytest.approx(1.0)
-
-
-def test_velocities_are_those_of_the_prop_wherever_it_faces():
-    straight = doodle("walk")
-    turn = normalized([0.1, 0.5, -0.2, 0.8])
-    there = Doodle(
-        straight.time_s,
-        np.add(rotate(turn, straight.position_m), [1.0, 2.0, 3.0]),
-        multiply(turn, straight.orientation_xyzw),
-    )
-    a, b = (embed_velocities(smooth(d), 40) for d in (straight, there))
-    np.testing.assert_allclose(a, b, atol=1e-9)
-    assert a.shape == (40, 6)
-    ahead = a[20]
-    assert ahead[2] > 0.1
-    np.testing.assert_allclose(ahead[[0, 1, 3, 4, 5]], 0.0, atol=1e-9)
-
-
-def test_turning_counts_by_its_weight():
-    motion = smooth(doodle("turn_left"))
-    light, heavy = (embed_velocities(motion, metres_per_radian=w) for w in (0.1, 0.2))
-    np.testing.assert_allclose(2.0 * light[:, 3:], heavy[:, 3:])
-    assert heavy[:, 4].max() == pytest.approx(
-        0.2 * motion.angular_velocity_rad_s[:, 1].max(), rel=0.05
-    )
