@@ -19,7 +19,7 @@ from smd.doodle import Doodle
 from smd.geometry.arrays import FloatArray
 from smd.recognition import pattern as ast
 from smd.recognition.bank import Bank, compile_library, occurrences
-from smd.recognition.recognizer import recognize
+from smd.recognition.recognizer import TokenSpotter
 from smd.recognition.streaming import BLOCK_S, RecognitionStream
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import Token, TokenRun
@@ -162,7 +162,7 @@ def print_streaming(bank: Bank, rows: list[Doodle]) -> None:
     pushes: list[float] = []
     seconds: list[float] = []
     for row in rows:
-        stream = RecognitionStream(lambda _, runs: recognize(runs, bank))
+        stream = RecognitionStream(TokenSpotter(bank))
         spent = []
         for sample in zip(row.time_s, row.position_m, row.orientation_xyzw, strict=True):
             started = time.thread_time()

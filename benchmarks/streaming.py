@@ -11,10 +11,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from actions_library.folder import load_library
+from laban import RigidMotion
 from smd.doodle import Doodle
 from smd.recognition import Recognizer
 from smd.recognition.bank import compile_library
-from smd.recognition.recognizer import Span, recognize
+from smd.recognition.recognizer import Span, TokenSpotter
 from smd.recognition.streaming import HORIZON_S, RecognitionStream, Spotter
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
@@ -37,13 +38,13 @@ def rows() -> list[Doodle]:
 
 
 def streamed(
-    doodle: Doodle, spot: Spotter, horizon_s: float
+    doodle: Doodle, spotter: Spotter, horizon_s: float
 ) -> tuple[list[Span], list[float], list[float]]:
     """Return the spans, how long after its end each became final (but the last ones), and costs.
 
     These are processor time in ms a sample, averaged over a second of samples each.
     """
-    stream = RecognitionStream(spot, horizon_s=horizon_s)
+    stream = RecognitionStream(spotter, horizon_s=horizon_s)
     spans: list[Span] = []
     late_s: list[float] = []
     spent: list[float] = []
@@ -59,6 +60,12 @@ def streamed(
     return spans + stream.finish(), late_s, whole.mean(axis=1).tolist()
 
 
+def spans_of(spotter: Spotter, motion: RigidMotion) -> list[Span]:
+    """Return what the offline pass finds in a whole doodle."""
+    runs = tokenize(motion)
+    return list(spotter.named(motion, runs, spotter.chosen(motion, runs)))
+
+
 def names(spans: Sequence[Span]) -> list[str]:
     """Return the spans' actions."""
     return [span.action for span in spans]
@@ -70,15 +77,15 @@ def main() -> None:
     patterns = {action.name: action.pattern for action in library.actions if action.pattern}
     bank = compile_library(patterns)
     ways: tuple[tuple[str, Spotter], ...] = (
-        ("tokens alone", lambda _, runs: recognize(runs, bank)),
-        ("with verification", Recognizer(library).spot_runs),
+        ("tokens alone", TokenSpotter(bank)),
+        ("with verification", Recognizer(library)),
     )
     played = rows()
     motions = [smooth(row) for row in played]
-    for name, spot in ways:
-        offline = [spot(motion, tokenize(motion)) for motion in motions]
+    for name, spotter in ways:
+        offline = [spans_of(spotter, motion) for motion in motions]
         for horizon_s in (HORIZON_S, 2.0 * HORIZON_S):
-            found = [streamed(row, spot, horizon_s) for row in played]
+            found = [streamed(row, spotter, horizon_s) for row in played]
             same = sum(names(a) == names(b) for (a, _, _), b in zip(found, offline, strict=True))
             late_s = np.array([late for _, each, _ in found for late in each])
             cost = np.percentile([ms for *_, each in found for ms in each], [50, 99])

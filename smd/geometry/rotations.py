@@ -115,8 +115,15 @@ def slerp(a_xyzw: ArrayLike, b_xyzw: ArrayLike, fraction: ArrayLike) -> FloatArr
 def matrix_from_quaternion(q_xyzw: ArrayLike) -> FloatArray:
     """Return rotation matrices ``(..., 3, 3)`` that act on column vectors."""
     q = np.asarray(q_xyzw, dtype=np.float64)
-    columns = [rotate(q, np.broadcast_to(axis, (*q.shape[:-1], 3))) for axis in np.eye(3)]
-    return np.stack(columns, axis=-1)
+    x, y, z, w = (q[..., i] for i in range(4))
+    xx, yy, zz = 2.0 * x * x, 2.0 * y * y, 2.0 * z * z
+    xy, xz, yz = 2.0 * x * y, 2.0 * x * z, 2.0 * y * z
+    wx, wy, wz = 2.0 * w * x, 2.0 * w * y, 2.0 * w * z
+    matrix = np.empty((*q.shape[:-1], 3, 3))
+    matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 0, 2] = 1.0 - yy - zz, xy - wz, xz + wy
+    matrix[..., 1, 0], matrix[..., 1, 1], matrix[..., 1, 2] = xy + wz, 1.0 - xx - zz, yz - wx
+    matrix[..., 2, 0], matrix[..., 2, 1], matrix[..., 2, 2] = xz - wy, yz + wx, 1.0 - xx - yy
+    return matrix
 
 
 def quaternion_from_euler(order: str, angles_rad: ArrayLike) -> FloatArray:

@@ -208,14 +208,22 @@ def least_costs(bank: Bank, *, read: FloatArray, skip: FloatArray) -> FloatArray
     skip
         ``(n,)``, what it costs to leave token i out. A missing token costs 1.
     """
+    return least_costs_by_end(bank, read=read, skip=skip)[-1]
+
+
+def least_costs_by_end(bank: Bank, *, read: FloatArray, skip: FloatArray) -> FloatArray:
+    """Return ``(n + 1, a)``, the `least_costs` of the first 0 to n tokens of a string."""
+    costs = np.empty((len(read) + 1, len(bank)))
+    costs[0] = bank.shortest
     if not len(bank):
-        return np.zeros(0)
+        return costs
     unread = 0.0
     front = bank.nowhere()
     for j, (reading, skipping) in enumerate(zip(read, skip.tolist(), strict=True)):
         front = bank.after(front, entering=unread, at=j, read=reading, skip=skipping)
         unread += skipping
-    return np.minimum(unread + bank.shortest, bank.leaving(front).cost)
+        costs[j + 1] = np.minimum(unread + bank.shortest, bank.leaving(front).cost)
+    return costs
 
 
 def _reachable(missing: IntArray) -> FloatArray:

@@ -53,6 +53,7 @@ class Exemplar:
     scale: FloatArray = field(init=False)
     centre: FloatArray = field(init=False)
     spread: FloatArray = field(init=False)
+    central: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
         n = len(self.measures)
@@ -79,6 +80,7 @@ class Exemplar:
         scale = np.exp(logs / (PRIOR_DISTANCES + own))
         for name, value in (("scale", scale), ("centre", centre), ("spread", spread)):
             object.__setattr__(self, name, frozen_array(name, value, (4,), DoodleError))
+        object.__setattr__(self, "central", _central(courses["shape_heading"]))
         object.__setattr__(self, "courses", MappingProxyType(courses))
         object.__setattr__(self, "measures", measures)
         object.__setattr__(self, "apart", apart)
@@ -119,14 +121,25 @@ def exemplar_of(examples: Sequence[Traits]) -> Exemplar:
     apart = np.zeros((n if n > 1 else 0, len(COURSES)))
     for i in range(len(apart)):
         others = [j for j in range(n) if j != i]
-        for k, course in enumerate(courses.values()):
-            apart[i, k] = nearest_distances(course[i : i + 1], course[others], k)[0]
+        for k, (name, course) in enumerate(courses.items()):
+            own, rest = course[i : i + 1], course[others]
+            if name == "shape_heading":
+                own = faced(own, _central(rest))
+            apart[i, k] = nearest_distances(own, rest)[0]
     measures = np.stack([example.measures for example in examples])
     return Exemplar(courses, measures, apart)
 
 
+def faced(shapes: FloatArray, central: FloatArray) -> FloatArray:
+    """Return courses ``(p, SAMPLES, 12)`` of shapes in the heading frame, turned to fit another.
+
+    ``central`` holds the one that each is turned to, ``(p, SAMPLES, 12)`` or ``(SAMPLES, 12)``.
+    """
+    return fitted(shapes, central, facing_rad=FACING_RAD, askew_rad=ASKEW_RAD)
+
+
 def nearest_distances(
-    gestures: FloatArray, examples: FloatArray, index: int, *, most: float = np.inf
+    gestures: FloatArray, examples: FloatArray, *, most: float = np.inf, every: int = 1
 ) -> FloatArray:
     """Return ``(p,)``: how far each of p gestures is from the nearest of m examples, warped.
 
@@ -134,13 +147,16 @@ def nearest_distances(
     ----------
     gestures, examples
         ``(p, SAMPLES, d)`` and ``(m, SAMPLES, d)``, one course of each.
-    index
-        Which of `COURSES` it is.
     most
         A distance above it is of no interest: it may come out as infinity, and sooner.
+    every
+        Only every so many-th sample is warped, in the square of that less time.
     """
-    if COURSES[index] == "shape_heading":
-        far = np.square(examples - examples.mean(axis=0)).sum(axis=(1, 2))
-        central = examples[int(far.argmin())]
-        gestures = fitted(gestures, central, facing_rad=FACING_RAD, askew_rad=ASKEW_RAD)
-    return np.asarray(distance_table(gestures, examples, band=BAND, most=most).min(axis=1))
+    ours, theirs = gestures[:, ::every], examples[:, ::every]
+    return np.asarray(distance_table(ours, theirs, band=BAND, most=most).min(axis=1))
+
+
+def _central(shapes: FloatArray) -> FloatArray:
+    """Return the one of several shapes ``(n, SAMPLES, d)`` that is nearest to their mean."""
+    far = np.square(shapes - shapes.mean(axis=0)).sum(axis=(1, 2))
+    return np.asarray(shapes[int(far.argmin())])

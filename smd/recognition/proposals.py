@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.geometry.arrays import FloatArray
-from smd.recognition.bank import Bank, least_costs
+from smd.recognition.bank import Bank, least_costs_by_end
 from smd.recognition.costs import RunCosts
 from smd.recognition.tokens import TokenRun
 
@@ -69,10 +69,11 @@ def between_rests(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> lis
     firsts, lasts = np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()
     found: list[Proposal] = []
     for i, first in enumerate(firsts):
+        part = slice(first, lasts[i : i + MOST_STROKES][-1])
+        by_end = least_costs_by_end(bank, read=read[part], skip=prices.skip[part])
         for last in lasts[i : i + MOST_STROKES]:
-            part = slice(first, last)
-            distance = least_costs(bank, read=read[part], skip=prices.skip[part])
-            found += [Proposal(a, first, last, d) for a, d in enumerate(distance.tolist())]
+            distance = by_end[last - first].tolist()
+            found += [Proposal(a, first, last, d) for a, d in enumerate(distance)]
     return found
 
 
@@ -83,11 +84,13 @@ def without_stir(found: Sequence[Proposal], runs: Sequence[TokenRun]) -> list[Pr
     begins and ends. Of an action's proposals for one stretch the nearest stays.
     """
     extent = np.array([run.travel_heights + run.turn_rad for run in runs])
-    tight: dict[tuple[int, int, int], Proposal] = {}
-    for one in found:
-        inside = extent[one.first : one.last]
-        meant = one.first + np.flatnonzero(inside >= STIR * inside.max())
-        one = one._replace(first=int(meant[0]), last=int(meant[-1]) + 1)
-        other = tight.get(one[:3], one)
-        tight[one[:3]] = min(one, other, key=lambda either: either.distance)
-    return list(tight.values())
+    meant: dict[tuple[int, int], tuple[int, int]] = {}
+    for first, last in dict.fromkeys((one.first, one.last) for one in found):
+        inside = extent[first:last]
+        large = first + np.flatnonzero(inside >= STIR * inside.max())
+        meant[first, last] = int(large[0]), int(large[-1]) + 1
+    tight: dict[tuple[int, int, int], float] = {}
+    for action, first, last, distance in found:
+        stretch = (action, *meant[first, last])
+        tight[stretch] = min(distance, tight.get(stretch, np.inf))
+    return [Proposal(*stretch, distance) for stretch, distance in tight.items()]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from laban import RigidMotion
 from smd.geometry.arrays import FloatArray
 from smd.recognition.bank import Bank, compile_library, least_costs
 from smd.recognition.costs import DEFAULT_COSTS, Costs, run_costs
@@ -85,30 +86,61 @@ def recognize(
     .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
     """
     bank = library if isinstance(library, Bank) else compile_library(library)
+    whole = with_loose_ends(segments(bank, runs, costs), runs)
+    return tuple(spans_of(bank, runs, whole, costs))
+
+
+@dataclass(frozen=True, slots=True)
+class TokenSpotter:
+    """Finds a bank's actions as `recognize` does, for `smd.recognition.streaming`.
+
+    Attributes
+    ----------
+    bank : the patterns, compiled.
+    costs : what is weighed against what.
+    """
+
+    bank: Bank
+    costs: Costs = DEFAULT_COSTS
+
+    def chosen(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Segment]:
+        """Return the stretches of runs that are actions; the motion is not looked at."""
+        return with_loose_ends(least_cost_segments(self.bank, runs, self.costs), runs)
+
+    def named(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
+    ) -> list[Span]:
+        """Return the spans of stretches of runs; the motion is not looked at."""
+        return spans_of(self.bank, runs, segments, self.costs)
+
+
+def spans_of(
+    bank: Bank, runs: Sequence[TokenRun], segments: Sequence[Segment], costs: Costs
+) -> list[Span]:
+    """Return the spans of segments that have their loose ends, weighed by tokens alone."""
     prices = run_costs(runs, costs)
     read = prices.of_reading(bank, runs)
-    found = segments(bank, runs, costs)
     spans = []
-    for segment, whole in zip(found, with_loose_ends(found, runs), strict=True):
-        part = slice(segment.first, segment.last)
+    for one in segments:
+        part = slice(one.first, one.last)
         distance = least_costs(bank, read=read[part], skip=prices.skip[part])
         nothing = float(prices.unexplained[part].sum()) - costs.action
         nearest = np.argsort(distance, kind="stable").tolist()
         spans.append(
             Span(
-                action=bank.names[segment.index],
-                first_run=whole.first,
-                last_run=whole.last,
-                start_s=runs[whole.first].start_s,
-                end_s=runs[whole.last - 1].end_s,
-                distance=float(distance[segment.index]),
-                confidence=_share(segment.index, np.append(distance, nothing), costs.sharpness),
+                action=bank.names[one.index],
+                first_run=one.first,
+                last_run=one.last,
+                start_s=runs[one.first].start_s,
+                end_s=runs[one.last - 1].end_s,
+                distance=float(distance[one.index]),
+                confidence=_share(one.index, np.append(distance, nothing), costs.sharpness),
                 alternatives=tuple(
-                    (bank.names[i], float(distance[i])) for i in nearest if i != segment.index
+                    (bank.names[i], float(distance[i])) for i in nearest if i != one.index
                 ),
             )
         )
-    return tuple(spans)
+    return spans
 
 
 def _share(chosen: int, cost: FloatArray, sharpness: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
@@ -18,13 +18,13 @@ from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import learn_pattern
 from smd.recognition.proposals import Proposal, between_rests, explaining, without_stir
-from smd.recognition.recognizer import Span, recognize, with_loose_ends
+from smd.recognition.recognizer import Span, TokenSpotter, with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.streaming import RecognitionStream
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
-from smd.recognition.traits import Traits, traits_of, traits_of_parts
-from smd.recognition.verification import TERMS, verifiers
+from smd.recognition.traits import traits_of, traits_of_parts
+from smd.recognition.verification import TERMS, WRONG, verification_of
 from smd.smoothing import smooth
 
 UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
@@ -38,6 +38,13 @@ what does not is rejected by the limit."""
 
 WORTH_NAMING = 2.0
 """An action that costs more than so many times its limit is no alternative to another one."""
+
+GLANCE = 2
+"""Courses of proposals are warped by every second sample, in a quarter of the time. That is good
+enough to choose stretches; what they are called is decided by all samples."""
+
+Fits: TypeAlias = dict[tuple[int, float, float], float]
+"""How well stretches fit an action's examples, by action, start and end in seconds."""
 
 
 class HasActions(Protocol):
@@ -128,9 +135,13 @@ class Recognizer:
         exemplars = {action.name: action.exemplar for action in every if action.pattern}
         self.names = tuple(patterns)
         self._bank = compile_library(patterns)
-        self._verifiers = verifiers([exemplars[name] for name in self.names], tolerance=tolerance)
+        self._verification = verification_of(
+            [exemplars[name] for name in self.names], tolerance=tolerance
+        )
+        self._verified = np.array([bool(one) for one in self._verification.exemplars], dtype=bool)
         self._figure_height_m = figure_height_m
         self._costs = costs
+        self._tokens = TokenSpotter(self._bank, costs)  # where there are no examples
 
     def rank(self, doodle: Doodle) -> list[Match]:
         """Weigh every action, and none, for a doodle that holds one gesture, the best first.
@@ -162,7 +173,7 @@ class Recognizer:
 
     def stream(self) -> RecognitionStream:
         """Return what finds the actions while a doodle is being drawn, sample by sample."""
-        return RecognitionStream(self.spot_runs, figure_height_m=self._figure_height_m)
+        return RecognitionStream(_Remembering(self), figure_height_m=self._figure_height_m)
 
     def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
         """Return the tokens of a doodle's smoothed motion; still where it was not drawn."""
@@ -172,73 +183,122 @@ class Recognizer:
         )
 
     def spot_runs(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Span]:
-        """Find the actions in a motion that is cut into tokens already.
+        """Find the actions in a motion that is cut into tokens already."""
+        return self.named(motion, runs, self.chosen(motion, runs))
+
+    def chosen(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], known: Fits | None = None
+    ) -> list[Segment]:
+        """Choose the stretches of runs that are actions, in time order.
 
         The automata propose, for each action and each end, the stretch that explains most. Each
         proposal is weighed by its tokens and against the action's examples, and left aside where
         it costs more than the action's limit. Of the rest those are chosen that do not overlap
         and cost least, each a second of movement, all movement between them included.
+
+        Parameters
+        ----------
+        motion, runs
+            Of one doodle, or of what is there of it.
+        known
+            How well stretches fit examples, where that is known, and where it is written down:
+            a stretch does not change when more of the doodle comes.
         """
-        if not any(self._verifiers):
-            return list(recognize(runs, self._bank, costs=self._costs))
+        if not self._verified.any():
+            return self._tokens.chosen(motion, runs)
         prices = run_costs(runs, self._costs)
         found = explaining(self._bank, runs, prices)
         found += between_rests(self._bank, runs, prices)
-        accepted = self._accepted(without_stir(found, runs), motion, runs, prices)
+        proposed = without_stir(found, runs)
+        cost = self._cost(proposed, motion, runs, prices, {} if known is None else known)
+        accepted = np.flatnonzero(np.isfinite(cost)).tolist()
         movement_s = np.array([run.end_s - run.start_s for run in runs]) * ~prices.is_still
         explained_s = np.concatenate([[0.0], np.cumsum(movement_s)])
-        chosen = best_cut(
-            [one.first for one, _ in accepted],
-            [one.last for one, _ in accepted],
-            [
-                ACTION + cost * float(explained_s[one.last] - explained_s[one.first])
-                for one, cost in accepted
-            ],
-            UNEXPLAINED * movement_s,
-        )
-        segments = [Segment(*accepted[i][0][:3]) for i in chosen]
-        whole = with_loose_ends(segments, runs)
-        stretches = [(one.first, one.last) for one in whole]
-        matches = self._matches(motion, runs, stretches, WORTH_NAMING)
-        return [
-            _span(self.names[one.index], one, runs, ranked)
-            for one, ranked in zip(whole, matches, strict=True)
-        ]
+        first = [proposed[i].first for i in accepted]
+        last = [proposed[i].last for i in accepted]
+        weight = ACTION + cost[accepted] * (explained_s[last] - explained_s[first])
+        best = best_cut(first, last, weight.tolist(), UNEXPLAINED * movement_s)
+        return with_loose_ends([Segment(*proposed[accepted[i]][:3]) for i in best], runs)
 
-    def _accepted(
+    def named(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
+    ) -> list[Span]:
+        """Return the spans of chosen stretches, with what else each could be.
+
+        Each is of the action that it costs least to see there, of those within their limit.
+        """
+        if not self._verified.any():
+            return self._tokens.named(motion, runs, segments)
+        stretches = [(one.first, one.last) for one in segments]
+        limit = dict(zip(self.names, self._verification.limit.tolist(), strict=True))
+        spans = []
+        for one, ranked in zip(
+            segments, self._matches(motion, runs, stretches, WORTH_NAMING), strict=True
+        ):
+            within = (m.action for m in ranked if m.action and m.distance <= limit[m.action])
+            spans.append(_span(next(within, self.names[one.index]), one, runs, ranked))
+        return spans
+
+    def _cost(
         self,
-        found: Sequence[Proposal],
+        proposed: Sequence[Proposal],
         motion: RigidMotion,
         runs: Sequence[TokenRun],
         prices: RunCosts,
-    ) -> list[tuple[Proposal, float]]:
-        """Return the proposals that fit their action's examples, and what each costs."""
-        stretch = {}
-        for one in found:
-            (whole,) = with_loose_ends([Segment(*one[:3])], runs)
-            stretch[one] = whole.first, whole.last
-        each = list(dict.fromkeys(stretch.values()))
-        traits = dict(zip(each, self._traits(motion, runs, each), strict=True))
-        accepted: list[tuple[Proposal, float]] = []
-        for action, verifier in enumerate(self._verifiers):
-            own = [one for one in found if one.action == action]
-            wrong = np.array([one.distance / _strokes(runs[one.first : one.last]) for one in own])
-            if verifier is None:
-                gain = [float(prices.unexplained[o.first : o.last].sum()) - o.distance for o in own]
-                pays = np.array(gain) > self._costs.action
-                cost = np.where(pays, UNVERIFIED + UNVERIFIED_WRONG * wrong, np.inf)
-            else:
-                gestures = [traits[stretch[one]] for one in own]
-                cost = verifier.terms(gestures, wrong, verifier.limit).sum(axis=1)
-                cost[cost > verifier.limit] = np.inf
-            accepted += [(o, c) for o, c in zip(own, cost.tolist(), strict=True) if c < np.inf]
-        return accepted
+        known: Fits,
+    ) -> FloatArray:
+        """Return what each proposal costs; infinity where it does not fit its action's examples."""
+        fits = self._fits(proposed, motion, runs, known)
+        limit = self._verification.limit
+        strokes = np.concatenate([[0], np.cumsum(~prices.is_still)])
+        unexplained = np.concatenate([[0.0], np.cumsum(prices.unexplained)])
+        action, first, last = np.array([one[:3] for one in proposed], np.int64).reshape(-1, 3).T
+        distance = np.array([one.distance for one in proposed])
+        wrong = distance / np.maximum(strokes[last] - strokes[first], 1)
+        verified = self._verified[action]
+        cost = np.where(verified, fits + WRONG * wrong, UNVERIFIED + UNVERIFIED_WRONG * wrong)
+        gain = unexplained[last] - unexplained[first] - distance
+        accepted = np.where(verified, cost <= limit[action], gain > self._costs.action)
+        cost[~accepted] = np.inf
+        return cost
 
-    def _traits(
-        self, motion: RigidMotion, runs: Sequence[TokenRun], stretches: Sequence[tuple[int, int]]
-    ) -> list[Traits]:
-        spans_s = [(runs[first].start_s, runs[last - 1].end_s) for first, last in stretches]
-        return traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m)
+    def _fits(
+        self,
+        proposed: Sequence[Proposal],
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        known: Fits,
+    ) -> FloatArray:
+        """Return how unlike its action's examples each proposal is, its tokens apart.
+
+        That is infinity where it is beyond the limit, and 0 where there are no examples.
+        """
+        span_s: dict[tuple[int, int], tuple[float, float]] = {}
+        for first, last in dict.fromkeys((one.first, one.last) for one in proposed):
+            (whole,) = with_loose_ends([Segment(0, first, last)], runs)
+            span_s[first, last] = runs[whole.first].start_s, runs[whole.last - 1].end_s
+        stretches = [(one.action, *span_s[one.first, one.last]) for one in proposed]
+        missing = [
+            each
+            for each in dict.fromkeys(stretches)
+            if self._verified[each[0]] and each not in known
+        ]
+        if missing:
+            spans_s = list(dict.fromkeys(each[1:] for each in missing))
+            place = {span_s: i for i, span_s in enumerate(spans_s)}
+            gestures = traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m)
+            action = np.array([each[0] for each in missing])
+            gesture = np.array([place[each[1:]] for each in missing])
+            terms = self._verification.terms(
+                gestures,
+                action,
+                gesture,
+                wrong=np.zeros(len(missing)),
+                most=self._verification.limit[action],
+                every=GLANCE,
+            )
+            known.update(zip(missing, terms.sum(axis=1).tolist(), strict=True))
+        return np.array([known.get(each, 0.0) for each in stretches])
 
     def _matches(
         self,
@@ -261,42 +321,55 @@ class Recognizer:
                 for part in parts
             ]
         ).reshape(len(parts), len(self.names))
-        gestures = self._traits(motion, runs, stretches)
-        terms = [
-            np.stack([np.full(len(parts), UNVERIFIED), UNVERIFIED_WRONG * wrong[:, i]], axis=1)
-            if verifier is None
-            else verifier.terms(gestures, wrong[:, i], beyond * verifier.limit)
-            for i, verifier in enumerate(self._verifiers)
+        terms = np.zeros((len(parts), len(self.names), len(TERMS)))
+        terms[..., 0] = UNVERIFIED + UNVERIFIED_WRONG * wrong
+        limit = np.where(self._verified, self._verification.limit, UNVERIFIED + UNVERIFIED_WRONG)
+        if len(parts) and self._verified.any():
+            spans_s = [(runs[first].start_s, runs[last - 1].end_s) for first, last in stretches]
+            gesture, action = np.nonzero(np.broadcast_to(self._verified, wrong.shape))
+            terms[gesture, action] = self._verification.terms(
+                traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m),
+                action,
+                gesture,
+                wrong=wrong[gesture, action],
+                most=beyond * limit[action],
+            )
+        return [self._ranked(each, limit) for each in terms]
+
+    def _ranked(self, terms: FloatArray, limit: FloatArray) -> list[Match]:
+        """Return the matches of one gesture, the best first, from its terms ``(a, 9)``.
+
+        The costs are negative logarithms of likelihoods, up to a constant, so the confidence is
+        each one's share of the likelihood; nothing at all is as likely as the best action at its
+        limit.
+        """
+        cost = terms.sum(axis=1)
+        nothing = float(limit[int(np.argmin(cost))])
+        costs = np.append(cost, nothing)
+        weight = np.exp(costs.min() - costs)
+        share = (weight / weight.sum()).tolist()
+        weighed = np.where(self._verified, len(TERMS), 1).tolist()  # without examples, the tokens
+        matches = [
+            Match(name, float(each.sum()), p, tuple(zip(TERMS, each[:n].tolist(), strict=False)))
+            for name, each, p, n in zip(self.names, terms, share[:-1], weighed, strict=True)
         ]
-        limits = [
-            UNVERIFIED + UNVERIFIED_WRONG if verifier is None else verifier.limit
-            for verifier in self._verifiers
-        ]
-        return [_ranked(self.names, [each[k] for each in terms], limits) for k in range(len(parts))]
+        matches.append(Match(None, nothing, share[-1]))
+        return sorted(matches, key=lambda match: match.distance)
 
 
-def _ranked(
-    names: Sequence[str], terms: Sequence[FloatArray], limits: Sequence[float]
-) -> list[Match]:
-    """Return the matches of one gesture, the best first.
+class _Remembering:
+    """A recognizer that is asked again and again about a doodle as it grows."""
 
-    The costs are negative logarithms of likelihoods, up to a constant, so the confidence is each
-    one's share of the likelihood; nothing at all is as likely as the best action at its limit.
-    """
-    costs = [float(each.sum()) for each in terms]
-    nothing = limits[int(np.argmin(costs))]
-    weight = np.exp(min(*costs, nothing) - np.array([*costs, nothing]))
-    share = (weight / weight.sum()).tolist()
-    matches = [
-        Match(name, cost, p, tuple(zip(_labels(each), each.tolist(), strict=True)))
-        for name, cost, p, each in zip(names, costs, share[:-1], terms, strict=True)
-    ]
-    matches.append(Match(None, nothing, share[-1]))
-    return sorted(matches, key=lambda match: match.distance)
+    def __init__(self, recognizer: Recognizer) -> None:
+        self._recognizer = recognizer
+        self._known: Fits = {}
+        self.named = recognizer.named
 
-
-def _labels(terms: FloatArray) -> tuple[str, ...]:
-    return TERMS if len(terms) == len(TERMS) else ("no examples", "tokens")
+    def chosen(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Segment]:
+        """Choose as the recognizer does, and forget what is over."""
+        begin_s = motion.time_s[0]
+        self._known = {each: fit for each, fit in self._known.items() if each[1] >= begin_s}
+        return self._recognizer.chosen(motion, runs, self._known)
 
 
 def _span(name: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[Match]) -> Span:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,12 +13,26 @@ from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.recognition.recognizer import Span
+from smd.recognition.segmentation import Segment
 from smd.recognition.smoothing_stream import Arrays, SmoothingStream
 from smd.recognition.tokenizer import tokenize
-from smd.recognition.tokens import STILL, TokenRun
+from smd.recognition.tokens import STILL, Token, TokenRun
 
-Spotter: TypeAlias = Callable[[RigidMotion, Sequence[TokenRun]], Sequence[Span]]
-"""Finds the actions in a motion that is cut into tokens, as an offline pass would."""
+
+class Spotter(Protocol):
+    """Finds the actions in a motion that is cut into tokens, as an offline pass would."""
+
+    def chosen(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> Sequence[Segment]:
+        """Return the stretches of runs that are actions, in time order."""
+
+    def named(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
+    ) -> Sequence[Span]:
+        """Return the spans of stretches of runs that were chosen."""
+
+
+Movement: TypeAlias = tuple[Token, float, float]
+"""A run that moves: its token, start and end."""
 
 HORIZON_S = 0.5
 """A span is final this long after its last movement, at the latest."""
@@ -51,8 +65,8 @@ class RecognitionStream:
 
     Parameters
     ----------
-    spot
-        The offline pass: ``lambda motion, runs: recognize(runs, bank)`` for tokens alone.
+    spotter
+        The offline pass: a `smd.recognition.Recognizer`, or `TokenSpotter` for tokens alone.
     figure_height_m
         Height of the figurine that the prop stands for.
     horizon_s
@@ -62,12 +76,12 @@ class RecognitionStream:
 
     def __init__(
         self,
-        spot: Spotter,
+        spotter: Spotter,
         *,
         figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
         horizon_s: float = HORIZON_S,
     ) -> None:
-        self._spot = spot
+        self._spotter = spotter
         self._figure_height_m = figure_height_m
         self._settling_s = horizon_s - 2.0 * STEP_S
         self._smoothing = SmoothingStream()
@@ -76,6 +90,7 @@ class RecognitionStream:
         self._look_s = -np.inf  # when to look next
         self._decided_s = -np.inf  # what begins earlier is decided
         self._forgotten = 0  # runs before the motion that is kept
+        self._seen: tuple[list[Movement], int, list[Segment]] = [], 0, []  # last, and its answer
 
     def push(
         self,
@@ -124,14 +139,16 @@ class RecognitionStream:
         needed_s = settled_s
         due_s = next((run.end_s for run in runs[first:] if run.token != STILL), np.inf)
         if due_s <= settled_s:
-            spans = self._undecided(motion, runs, first)
-            final = [span for span in spans if span.end_s <= settled_s]
+            segments = self._undecided(motion, runs, first)
+            ends_s = [runs[segment.last - 1].end_s for segment in segments]
+            count = sum(end_s <= settled_s for end_s in ends_s)
             due_s = np.inf
-            if final:
+            if count:
+                final = list(self._spotter.named(motion, runs, segments[:count]))
                 self._decided_s = final[-1].end_s
-            if len(final) < len(spans):
-                needed_s = min(settled_s, spans[len(final)].start_s)
-                due_s = spans[len(final)].end_s
+            if count < len(segments):
+                needed_s = min(settled_s, runs[segments[count].first].start_s)
+                due_s = ends_s[count]
         self._look_s = min(self._look_s, due_s + self._settling_s)
         numbered = [
             replace(
@@ -145,16 +162,24 @@ class RecognitionStream:
             self._forget(runs, needed_s)
         return numbered
 
-    def _undecided(self, motion: RigidMotion, runs: Sequence[TokenRun], first: int) -> list[Span]:
-        """Return the spans of the runs from ``first`` on; the ones before are decided."""
-        spans = self._spot(motion, runs)
-        if all(span.first_run >= first or span.last_run <= first for span in spans):
-            return [span for span in spans if span.first_run >= first]
-        # What is decided looks otherwise by now, but it is decided.
-        return [
-            replace(span, first_run=span.first_run + first, last_run=span.last_run + first)
-            for span in self._spot(motion, runs[first:])
-        ]
+    def _undecided(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], first: int
+    ) -> list[Segment]:
+        """Return the segments of the runs from ``first`` on; the ones before are decided."""
+        # Rest that goes on changes nothing.
+        moving = [(run.token, run.start_s, run.end_s) for run in runs if run.token != STILL]
+        if (moving, first) == self._seen[:2]:
+            return self._seen[2]
+        segments = list(self._spotter.chosen(motion, runs))
+        if any(segment.first < first < segment.last for segment in segments):
+            # What is decided looks otherwise by now, but it is decided.
+            segments = [
+                replace(segment, first=segment.first + first, last=segment.last + first)
+                for segment in self._spotter.chosen(motion, runs[first:])
+            ]
+        segments = [segment for segment in segments if segment.first >= first]
+        self._seen = moving, first, segments
+        return segments
 
     def _drawing(self, time_s: FloatArray) -> BoolArray:
         """Return whether the user drew at each of the motion's times."""

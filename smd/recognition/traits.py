@@ -58,12 +58,12 @@ _FLOORS = (0.05, 0.1, 0.2, 0.1)
 
 
 class Traits(NamedTuple):
-    """What verification looks at in one gesture.
+    """What verification looks at in a gesture, or with a leading axis in several.
 
     Attributes
     ----------
-    courses : by the names in `COURSES`, each ``(SAMPLES, d)``: free of place, heading, and size.
-    measures : (4,), logarithms in the order of `MEASURES`.
+    courses : by the names in `COURSES`, each ``(…, SAMPLES, d)``: free of place, heading, and size.
+    measures : (…, 4), logarithms in the order of `MEASURES`.
     """
 
     courses: tuple[FloatArray, ...]
@@ -81,7 +81,8 @@ def traits_of(motion: RigidMotion, *, figure_height_m: float = DEFAULT_FIGURE_HE
         Height of the figurine that the prop stands for; lengths are counted in it.
     """
     whole = float(motion.time_s[0]), float(motion.time_s[-1])
-    return traits_of_parts(motion, [whole], figure_height_m=figure_height_m)[0]
+    one = traits_of_parts(motion, [whole], figure_height_m=figure_height_m)
+    return Traits(tuple(course[0] for course in one.courses), one.measures[0])
 
 
 def traits_of_parts(
@@ -89,7 +90,7 @@ def traits_of_parts(
     spans_s: Sequence[tuple[float, float]],
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
-) -> list[Traits]:
+) -> Traits:
     """Return the traits of parts of a motion, each as if it were alone, all at once.
 
     Parameters
@@ -97,12 +98,11 @@ def traits_of_parts(
     motion
         Smooth.
     spans_s
-        When each part begins and ends; it has the samples in between, at least one.
+        When each part begins and ends; it has the samples in between, at least one. There is at
+        least one part.
     figure_height_m
         Height of the figurine that the prop stands for; lengths are counted in it.
     """
-    if not spans_s:
-        return []
     spans = np.asarray(spans_s, dtype=np.float64)
     time_s = motion.time_s
     start_s = time_s[np.searchsorted(time_s, spans[:, 0] - 1e-9)]
@@ -144,7 +144,7 @@ def traits_of_parts(
         np.concatenate([moving, turning], axis=-1),
     )
     measures = np.log(sizes + _FLOORS)
-    return [Traits(tuple(course[k] for course in courses), measures[k]) for k in range(len(spans))]
+    return Traits(courses, measures)
 
 
 def fitted(
@@ -163,7 +163,7 @@ def fitted(
     shapes
         ``(m, n, 12)``: a position and three axes a sample.
     target
-        ``(n, 12)``.
+        ``(m, n, 12)``, or ``(n, 12)`` for all.
     facing_rad, askew_rad
         The most that each may take away; non-negative.
 
@@ -173,18 +173,20 @@ def fitted(
         ``(m, n, 12)``.
     """
     m, n, _ = shapes.shape
-    vectors, wanted = shapes.reshape(m, 4 * n, 3), target.reshape(4 * n, 3)
+    vectors, wanted = shapes.reshape(m, 4 * n, 3), target.reshape(-1, 4 * n, 3)
     x, z = vectors[..., 0], vectors[..., 2]
-    along = x @ wanted[:, 0] + z @ wanted[:, 2]
-    across = z @ wanted[:, 0] - x @ wanted[:, 2]
+    along = np.sum(x * wanted[..., 0] + z * wanted[..., 2], axis=1)
+    across = np.sum(z * wanted[..., 0] - x * wanted[..., 2], axis=1)
     angle = np.clip(np.arctan2(across, along), -facing_rad, facing_rad)[:, None]
     cosine, sine = np.cos(angle), np.sin(angle)
     turned = np.stack([cosine * x + sine * z, vectors[..., 1], cosine * z - sine * x], axis=-1)
     turned = turned.reshape(m, n, 4, 3)
 
-    axes, goal = turned[:, :, 1:], target.reshape(n, 4, 3)[:, 1:]
+    axes, goal = turned[:, :, 1:], target.reshape(-1, n, 4, 3)[:, :, 1:]
     # (m, 3, 3), the mean of (our frame)^T (their frame), each of unit axes
-    between = np.tensordot(axes, goal, axes=([1, 3], [0, 2])) / (n * 0.5 * _RADIAN_IN_SHAPE**2)
+    ours = axes.transpose(0, 2, 1, 3).reshape(m, 3, 3 * n)
+    theirs = goal.transpose(0, 1, 3, 2).reshape(-1, 3 * n, 3)
+    between = np.matmul(ours, theirs) / (n * 0.5 * _RADIAN_IN_SHAPE**2)
     sine_axis = 0.5 * np.stack(
         [
             between[:, 2, 1] - between[:, 1, 2],

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray
-from smd.recognition.exemplar import Exemplar, nearest_distances
+from smd.geometry.arrays import FloatArray, IntArray
+from smd.recognition.exemplar import Exemplar, faced, nearest_distances
 from smd.recognition.traits import COURSES, MEASURES, Traits
 
 TERMS = ("tokens", *COURSES, *MEASURES)
@@ -17,6 +17,9 @@ TERMS = ("tokens", *COURSES, *MEASURES)
 WEIGHTS = np.array([1.0, 5.0, 0.5, 2.9, 1.7, 0.6, 0.8, 0.2, 0.3])
 """What each term counts; ``docs/verification.md`` says where they come from."""
 WEIGHTS.flags.writeable = False
+
+WRONG = float(WEIGHTS[0])
+"""What a gesture costs of whose tokens all are wrong, whatever the examples say."""
 
 USUAL_COST = 8.0
 """Of an example, weighed against the others of its action: in the middle between what simulated
@@ -32,7 +35,7 @@ open does."""
 
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
 _TELLING_FIRST = tuple(
-    COURSES.index(name) for name in ("shape_heading", "flow_heading", "flow_prop", "shape_prop")
+    COURSES.index(name) for name in ("flow_heading", "shape_heading", "flow_prop", "shape_prop")
 )
 
 _FREEDOM = 4.0
@@ -41,54 +44,105 @@ unlikely than what is out."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Verifier:
-    """What a gesture must be like to be one of an action's.
+class Verification:
+    """What gestures must be like to be a library's actions.
 
     Attributes
     ----------
-    exemplar : of the action's examples.
-    limit : the cost above which a gesture is rejected.
+    exemplars : of each of a actions; None where there are no examples.
+    limit : (a,), the cost above which a gesture is rejected; infinite where there are none.
     """
 
-    exemplar: Exemplar
-    limit: float
+    exemplars: tuple[Exemplar | None, ...]
+    limit: FloatArray
+    centre: FloatArray = field(init=False)
+    spread: FloatArray = field(init=False)
+    unit: FloatArray = field(init=False)
+    central: FloatArray = field(init=False)
 
-    def terms(self, gestures: Sequence[Traits], wrong: FloatArray, most: float) -> FloatArray:
-        """Return ``(p, 9)``: how unlike the action each of p gestures is, in the order of `TERMS`.
+    def __post_init__(self) -> None:
+        some = next((one for one in self.exemplars if one), None)
+        each = [one or some for one in self.exemplars] if some else []
+        stacked = {
+            "limit": self.limit,
+            "centre": [one.centre for one in each if one],
+            "spread": [one.spread for one in each if one],
+            "unit": [WEIGHTS[1 : 1 + len(COURSES)] / one.scale for one in each if one],
+            "central": [one.central for one in each if one],
+        }
+        for name, value in stacked.items():
+            array = np.array(value, dtype=np.float64)
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+
+    def terms(
+        self,
+        gestures: Traits,
+        action: IntArray,
+        gesture: IntArray,
+        *,
+        wrong: FloatArray,
+        most: FloatArray,
+        every: int = 1,
+    ) -> FloatArray:
+        """Return how unlike actions' examples gestures are, for p pairs of both.
 
         A course's term is its distance to the nearest example, as a multiple of what is usual; a
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
-        its peak; the tokens' is ``wrong (p,)``, the edits from the pattern as a share of the
-        tokens. Each is multiplied by its weight, and none is negative. So the measures and
-        the most telling courses come first, and the rest are not looked for (`inf`) once the sum
-        is above ``most``.
+        its peak; the tokens' is the share that is wrong. Each is multiplied by its weight, and
+        none is negative. So the measures and the most telling courses come first, and the rest
+        are not looked for (`inf`) once the sum is above ``most``.
+
+        Parameters
+        ----------
+        gestures
+            Traits of g gestures.
+        action, gesture
+            ``(p,)``, the numbers of an action that has examples, and of a gesture.
+        wrong
+            ``(p,)``, the edits from the action's pattern as a share of the tokens.
+        most
+            ``(p,)``, a sum above it is of no interest.
+        every
+            Courses are warped by every so many-th sample.
+
+        Returns
+        -------
+        ndarray
+            ``(p, 9)``, in the order of `TERMS`.
         """
-        own = self.exemplar
-        terms = np.full((len(gestures), len(TERMS)), np.inf)
-        if not len(gestures):
+        terms = np.full((len(action), len(TERMS)), np.inf)
+        if not len(action):
             return terms
-        terms[:, 0] = wrong
-        measures = np.stack([gesture.measures for gesture in gestures])
-        terms[:, _MEASURES] = _oddness((measures - own.centre) / own.spread)
-        terms *= WEIGHTS
+        terms[:, 0] = WEIGHTS[0] * wrong
+        deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
+        terms[:, _MEASURES] = WEIGHTS[_MEASURES] * _oddness(deviation)
         total = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
         for i in _TELLING_FIRST:
             left = np.flatnonzero(total <= most)
-            if not len(left):
-                break
-            ours = np.stack([gestures[k].courses[i] for k in left.tolist()])
-            unit = WEIGHTS[1 + i] / own.scale[i]
-            room = float(most - total[left].min()) / unit
-            far = nearest_distances(ours, own.courses[COURSES[i]], i, most=room)
+            unit = self.unit[action[left], i]
+            courses = gestures.courses[i][gesture[left]]
+            if COURSES[i] == "shape_heading":
+                courses = faced(courses, self.central[action[left]])
+            room = (most[left] - total[left]) / unit
+            far = np.empty(len(left))
+            for index in np.unique(action[left]).tolist():
+                own = np.flatnonzero(action[left] == index)
+                exemplar = self.exemplars[index]
+                assert exemplar is not None
+                examples = exemplar.courses[COURSES[i]]
+                far[own] = nearest_distances(
+                    courses[own], examples, most=float(room[own].max()), every=every
+                )
             terms[left, 1 + i] = unit * far
             total[left] += terms[left, 1 + i]
         return terms
 
 
-def verifiers(
+def verification_of(
     exemplars: Sequence[Exemplar | None], *, tolerance: float = 1.0
-) -> tuple[Verifier | None, ...]:
-    """Return a verifier for each action of a library; None for one that has no examples.
+) -> Verification:
+    """Return what gestures must be like to be each action of a library.
 
     The limit follows from what examples cost when each is left out in turn: of the action, pooled
     with those of the whole library, which say how alike this user's gestures are, and with a
@@ -96,10 +150,11 @@ def verifiers(
     """
     own = [_left_out_costs(one) if one else np.zeros(0) for one in exemplars]
     library = _pooled(np.concatenate([np.zeros(0), *own]), USUAL_COST)
-    return tuple(
-        Verifier(one, tolerance * _limit(len(one), _pooled(costs, library))) if one else None
+    limits = [
+        tolerance * _limit(len(one), _pooled(costs, library)) if one else np.inf
         for one, costs in zip(exemplars, own, strict=True)
-    )
+    ]
+    return Verification(tuple(exemplars), np.array(limits))
 
 
 def _limit(examples: int, usual: float) -> float:

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from laban import RigidMotion
 from smd.doodle import Doodle
 from smd.recognition.recognizer import Span
 from smd.recognition.streaming import BLOCK_S, HORIZON_S, STEP_S, Spotter
 from smd.recognition.tokenizer import tokenize
-from smd.recognition.tokens import STILL
+from smd.recognition.tokens import STILL, TokenRun
 from smd.smoothing import RATE_HZ, WINDOW_S, smooth
 
 
 def spans_as_they_become_final(
-    doodle: Doodle, spot: Spotter, horizon_s: float = HORIZON_S
+    doodle: Doodle, spotter: Spotter, horizon_s: float = HORIZON_S
 ) -> list[tuple[str, float, float]]:
     """Return actions, starts and ends, looking when the stream does; nothing is forgotten."""
     whole = smooth(doodle)
@@ -33,9 +36,9 @@ def spans_as_they_become_final(
         motion = whole.between(-np.inf, known_s)
         runs = tokenize(motion)
         first = next((i for i, run in enumerate(runs) if run.start_s > decided_s - 0.025), 0)
-        spans: list[Span] = list(spot(motion, runs))
+        spans: list[Span] = _spans(spotter, motion, runs)
         if any(span.first_run < first < span.last_run for span in spans):
-            spans = list(spot(motion, runs[first:]))
+            spans = _spans(spotter, motion, runs[first:])
         spans = [span for span in spans if span.start_s > decided_s - 0.025]
         moving_s = [run.end_s for run in runs[first:] if run.token != STILL]
         if moving_s and moving_s[0] > settled_s:
@@ -48,6 +51,10 @@ def spans_as_they_become_final(
             found.append((span.action, span.start_s, span.end_s))
             decided_s = span.end_s
     return found
+
+
+def _spans(spotter: Spotter, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Span]:
+    return list(spotter.named(motion, runs, spotter.chosen(motion, runs)))
 
 
 def _grid_before(time_s: float, doodle: Doodle) -> float:

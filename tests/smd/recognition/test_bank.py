@@ -9,7 +9,13 @@ from hypothesis import strategies as st
 
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from smd.recognition.automaton import compile_automaton, edit_distance, least_cost, reading
-from smd.recognition.bank import compile_library, distances, least_costs, occurrences
+from smd.recognition.bank import (
+    compile_library,
+    distances,
+    least_costs,
+    least_costs_by_end,
+    occurrences,
+)
 from smd.recognition.pattern import Pattern
 from smd.recognition.token_costs import graded_costs, unit_costs
 from smd.recognition.tokens import Token
@@ -98,6 +104,16 @@ def test_the_shipped_actions_are_measured_as_one_by_one(costs, seed):
     for automaton, cost in zip(automata, priced, strict=True):
         read = np.maximum(reading(automaton, word, costs), faint[:, None])
         assert cost == pytest.approx(least_cost(automaton, read=read, skip=skip), rel=1e-12)
+
+
+@pytest.mark.parametrize("costs", COSTS, ids=by_name)
+def test_the_costs_of_all_beginnings_are_those_of_each(costs):
+    rng = np.random.default_rng(3)
+    bank = compile_library(PATTERNS, costs)
+    word = [ALPHABET[i] for i in rng.integers(len(ALPHABET), size=12)]
+    read, skip = bank.reading(word), rng.uniform(0.1, 1.0, len(word))
+    each = [least_costs(bank, read=read[:j], skip=skip[:j]) for j in range(len(word) + 1)]
+    assert np.array_equal(least_costs_by_end(bank, read=read, skip=skip), each)
 
 
 def test_graded_distances_are_never_larger():

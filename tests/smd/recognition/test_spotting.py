@@ -15,6 +15,7 @@ from smd.recognition.verification import TERMS
 from smd.synthetic.curves import straight_line
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take
+from tests.naive.streaming import spans_as_they_become_final
 
 NAMES = ("walk", "jump", "punch", "throw", "turn_left", "bow")
 
@@ -144,3 +145,20 @@ def test_its_stream_finds_what_it_spots(player, recognizer):
     for ours, theirs in zip(spans, offline, strict=True):
         assert ours.start_s == pytest.approx(theirs.start_s, abs=0.05)
         assert ours.end_s == pytest.approx(theirs.end_s, abs=0.05)
+
+
+def test_its_stream_weighs_each_stretch_once_and_says_the_same(player, recognizer):
+    """What it remembers does not matter: the oracle weighs everything again at every look."""
+    doodle = take(*player, "punch", "walk", "bow").doodle()
+    stream = recognizer.stream()
+    samples = zip(doodle.time_s, doodle.position_m, doodle.orientation_xyzw, strict=True)
+    spans = [span for sample in samples for span in stream.push(*sample)]
+    told = [(span.action, span.start_s, span.end_s) for span in spans]
+    assert [action for action, _, _ in told] == ["punch", "walk", "bow"][: len(told)]
+    assert told == spans_as_they_become_final(doodle, recognizer)[: len(told)]
+
+
+def test_no_alternative_is_nearer_than_the_action(player, recognizer):
+    doodle = take(*player, "throw", "jump").doodle()
+    for span in recognizer.spot(doodle):
+        assert all(distance >= span.distance for _, distance in span.alternatives)

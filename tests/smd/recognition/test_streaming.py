@@ -9,7 +9,7 @@ from actions_library.authoring.actions import HUMANOID_ACTIONS
 from smd.errors import DoodleError
 from smd.formats import read_recording
 from smd.recognition.bank import compile_library
-from smd.recognition.recognizer import recognize
+from smd.recognition.recognizer import TokenSpotter, recognize
 from smd.recognition.streaming import HORIZON_S, RecognitionStream
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
@@ -21,8 +21,7 @@ RECORDINGS = Path(__file__).parents[3] / "recordings"
 BANK = compile_library({a.name: a.pattern for a in HUMANOID_ACTIONS if a.pattern})
 
 
-def spot(motion, runs):
-    return recognize(runs, BANK)
+SPOTTER = TokenSpotter(BANK)
 
 
 def offline(doodle):
@@ -37,7 +36,7 @@ def samples(doodle):
 
 def streamed(doodle, **how):
     """Return the spans and the time at which each became final."""
-    stream = RecognitionStream(spot, **how)
+    stream = RecognitionStream(SPOTTER, **how)
     found = [(span, t) for t, p, q, on in samples(doodle) for span in stream.push(t, p, q, on)]
     return found + [(span, np.inf) for span in stream.finish()]
 
@@ -65,7 +64,7 @@ def test_it_says_what_the_offline_pass_says_when_it_must_decide(seed):
     """All it forgets does not matter: the oracle tokenizes everything again and forgets nothing."""
     doodle = row([3, seed], list(GESTURES)[seed % 3 :: 2])
     ours = told(span for span, _ in streamed(doodle))
-    assert_same(ours, spans_as_they_become_final(doodle, spot))
+    assert_same(ours, spans_as_they_become_final(doodle, SPOTTER))
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -118,14 +117,14 @@ def test_a_pause_that_ends_as_a_span_falls_due_parts_it():
 
 def test_what_was_not_drawn_is_nothing():
     doodle = row([7, 0])
-    stream = RecognitionStream(spot)
+    stream = RecognitionStream(SPOTTER)
     assert not [s for t, p, q, _ in samples(doodle) for s in stream.push(t, p, q, False)]
     assert stream.finish() == []
 
 
 def test_a_long_stream_does_not_grow():
     doodle = row([8, 0])
-    stream = RecognitionStream(spot)
+    stream = RecognitionStream(SPOTTER)
     found = 0
     for lap in range(6):
         shift_s = lap * (doodle.duration_s + 0.02)
@@ -138,7 +137,7 @@ def test_a_long_stream_does_not_grow():
 
 def test_a_bad_sample_does_not_stop_it():
     doodle = row([9, 0], ["walk"])
-    stream = RecognitionStream(spot)
+    stream = RecognitionStream(SPOTTER)
     for i, (t, p, q, on) in enumerate(samples(doodle)):
         stream.push(t, p, q, on)
         if i % 50 == 0:
@@ -148,4 +147,4 @@ def test_a_bad_sample_does_not_stop_it():
 
 
 def test_nothing_comes_of_nothing():
-    assert RecognitionStream(spot).finish() == []
+    assert RecognitionStream(SPOTTER).finish() == []
