@@ -23,6 +23,9 @@ SHOWN_EXAMPLES = 10
 LONG_REST_S = 0.7
 """A rest within a gesture that is worth asking about."""
 
+SHOWN_PATTERN = 1000
+"""Characters of a pattern that are printed; that of a hundred examples fills pages."""
+
 SHOWN_TOKENS = 8
 """Of more optional tokens, the others are counted; the pattern has them all."""
 
@@ -158,7 +161,10 @@ def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
         yield from _tokens(learned)
     else:
         yield "  warning: no movement is in all examples; they show several ways to draw it"
-    yield f"  pattern: {learned.pattern}"
+    pattern = str(learned.pattern)
+    if len(pattern) > SHOWN_PATTERN:
+        pattern = f"{pattern[:SHOWN_PATTERN]}… and {len(pattern) - SHOWN_PATTERN} characters more"
+    yield f"  pattern: {pattern}"
 
 
 def _tokens(learned: LearnedPattern) -> Iterator[str]:

@@ -106,7 +106,8 @@ def learn_pattern(
     ways = [generalized([mean, *examples])] if mean else []
     if not any(ways):
         mean, ways = [], ways_of(examples)
-    if len(ways) > 1 and (odd := stranger(examples)) is not None:
+    # The average may be like examples that are nothing like each other.
+    if len(examples) > 1 and (odd := stranger(examples)) is not None:
         raise _nothing_in_common(called, examples, odd)
     return LearnedPattern(
         pattern=pattern_of(ways),

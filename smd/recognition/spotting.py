@@ -21,6 +21,7 @@ from smd.recognition.proposals import Proposal, between_rests, explaining, witho
 from smd.recognition.recognizer import Span, TokenSpotter, with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.streaming import RecognitionStream
+from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of, traits_of_parts
@@ -118,6 +119,8 @@ class Recognizer:
         Height of the figurine that the prop stands for.
     costs
         What the tokens of a span are weighed by.
+    token_costs
+        What it costs to take one token for another; the paper's unit costs if absent.
     tolerance
         Factor on every action's limit: below 1 more is rejected, above it less.
     """
@@ -128,13 +131,14 @@ class Recognizer:
         *,
         figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
         costs: Costs = DEFAULT_COSTS,
+        token_costs: TokenCosts | None = None,
         tolerance: float = 1.0,
     ) -> None:
         every = actions if isinstance(actions, Iterable) else actions.actions
         patterns = {action.name: action.pattern for action in every if action.pattern}
         exemplars = {action.name: action.exemplar for action in every if action.pattern}
         self.names = tuple(patterns)
-        self._bank = compile_library(patterns)
+        self._bank = compile_library(patterns, token_costs)
         self._verification = verification_of(
             [exemplars[name] for name in self.names], tolerance=tolerance
         )

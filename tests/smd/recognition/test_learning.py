@@ -16,7 +16,7 @@ from smd.recognition.pattern import Pattern
 from smd.recognition.places import Stroke
 from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
-from smd.synthetic.strokes import GESTURES, STEADY, simulated_person
+from smd.synthetic.strokes import GESTURES, STEADY, progress, simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.learning_by_index import learned_by_index
 
@@ -202,6 +202,12 @@ def test_alternatives_at_one_place_are_a_choice():
     assert str(one_way(generalized(ways))) == "(T_Z|T_Y_Z|T_X_Z)+"
 
 
+def straight(direction):
+    stroke = progress(np.clip(np.arange(120) / 60.0 - 0.5, 0.0, 1.0))[:, None]
+    upright = np.tile([0.0, 0.0, 0.0, 1.0], (120, 1))
+    return Doodle(np.arange(120) / 60.0, 0.3 * stroke * np.asarray(direction), upright)
+
+
 def test_a_hundred_examples_are_learned():
     learned = learn_pattern(played("throw", 100))
     assert all(distance(learned.pattern, word) == 0 for word in learned.sequences)
@@ -225,6 +231,13 @@ def test_an_example_that_has_nothing_in_common_is_named():
     with pytest.raises(LearningError, match=message) as caught:
         learn_pattern(doodles, names=["a.csv", "b.csv", "c.csv"])
     assert caught.value.example == 1
+
+
+def test_an_average_of_three_directions_does_not_bridge_them():
+    """It goes aslant, so that each example is like it, and none is like another."""
+    doodles = [straight(direction) for direction in np.eye(3)]
+    with pytest.raises(LearningError, match=r"example \d: expected a movement that another"):
+        learn_pattern(doodles)
 
 
 def test_an_example_that_is_all_stillness_is_named():
