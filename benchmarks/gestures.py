@@ -27,6 +27,7 @@ from smd.recognition.alignment import distance_table
 from smd.recognition.embedding import embed_poses, sample_poses
 from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import doodle_runs, without_rest
+from smd.recognition.token_costs import TokenCosts
 from smd.recognition.traits import SAMPLES, traits_of
 from smd.smoothing import smooth
 
@@ -87,8 +88,8 @@ def between_people(data: Gestures) -> list[Split]:
     ]
 
 
-def ours(data: Gestures, learned: IntArray, tested: IntArray) -> IntArray:
-    """Return what our recogniser takes gestures for; 0 for none."""
+def learned_actions(data: Gestures, learned: IntArray) -> list[Action]:
+    """Return an action for each class, learned from some of the gestures."""
     actions = []
     for label in np.unique(data.label[learned]):
         own = [data.doodles[i] for i in learned[data.label[learned] == label]]
@@ -98,7 +99,14 @@ def ours(data: Gestures, learned: IntArray, tested: IntArray) -> IntArray:
             actions.append(learn(str(label), own))
         except LearningError:  # examples with nothing in common
             actions.append(_learned_anyhow(str(label), own))
-    recognizer = Recognizer(actions)
+    return actions
+
+
+def ours(
+    data: Gestures, learned: IntArray, tested: IntArray, token_costs: TokenCosts | None = None
+) -> IntArray:
+    """Return what our recogniser takes gestures for; 0 for none."""
+    recognizer = Recognizer(learned_actions(data, learned), token_costs=token_costs)
     found = []
     for i in tested:
         best = next(match for match in recognizer.rank(data.doodles[i]) if match.action)

@@ -11,11 +11,14 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from actions_library.authoring.actions import HUMANOID_ACTIONS
+from benchmarks import gestures
+from benchmarks.performers import edits
 from smd.errors import SmdError
 from smd.formats import SourceFrame, read_recording
 from smd.recognition import pattern as ast
@@ -59,10 +62,10 @@ def told_right(people: dict[int, dict[int, list[tuple[Token, ...]]]], costs: Tok
     """Return the share of gestures whose nearest example, of the same person, is of their kind."""
     rng = np.random.default_rng(SEED)
     right = []
-    for gestures in people.values():
+    for classes in people.values():
         for _ in range(SPLITS):
             examples, rest = {}, []
-            for gesture, words in gestures.items():
+            for gesture, words in classes.items():
                 order = rng.permutation(len(words))
                 for i in order[:EXAMPLES]:
                     examples[f"{gesture} {i}"] = words[i]
@@ -104,17 +107,6 @@ def idle_runs() -> tuple[list[Runs], float]:
     return found, all_s / 60.0
 
 
-def edits(a: Sequence[str], b: Sequence[str]) -> int:
-    """Return Levenshtein's distance."""
-    row = list(range(len(b) + 1))
-    for i, x in enumerate(a, 1):
-        left = [i]
-        for j, y in enumerate(b):
-            left.append(min(row[j + 1] + 1, left[j] + 1, row[j] + (x != y)))
-        row = left
-    return row[-1]
-
-
 def main() -> None:
     """Print every figure."""
     kinds = (unit_costs(), graded_costs())
@@ -123,6 +115,11 @@ def main() -> None:
         for costs in kinds:
             share = 100.0 * told_right(people, costs)
             print(f"SHREC, {len(people)} people, {EXAMPLES} examples: {costs.name} {share:.1f} %")
+        data = gestures.read_gestures(gestures.REPORTED)
+        splits = gestures.within_people(data)[:: gestures.SPLITS]
+        for costs in kinds:
+            share, _ = gestures.accuracy(partial(gestures.ours, token_costs=costs), data, splits)
+            print(f"  with verification, people 8 to 14: {costs.name} {100.0 * share:.1f} %")
     short, long = rows(2, 3), rows(5, 15)
     idle, minutes = idle_runs()
     ways: tuple[tuple[TokenCosts, Segmenter], ...] = (
