@@ -1,16 +1,14 @@
 """Calibration: from a classifier's log odds to a reading that can be believed.
 
-Naive Bayes counts every feature as new evidence. Features of movement repeat each other (speed,
-acceleration and jerk rise together), so its log odds are far too sure, and lopsided: fast
-movements vary more than slow ones. Read as they are, they would sit at -1 and 1. Held-out takes
-put this right: sorted by their log odds and gathered in groups, each group's share of the high
-pole is what such log odds are worth. Where a group contradicts its neighbours they are pooled
-(isotonic regression [1]_), so a reading never falls as the log odds rise.
+A classifier that was fitted to a few people is too sure of the next one. How sure it may be is
+learned from takes of people that it has not seen: their log odds are multiplied by the one
+number that makes what was meant most likely ("temperature" [1]_), so that the sign, and with it
+the decision, stays.
 
 References
 ----------
-.. [1] B. Zadrozny, C. Elkan, "Transforming Classifier Scores into Accurate Multiclass Probability
-   Estimates", KDD 2002.
+.. [1] C. Guo, G. Pleiss, Y. Sun, K. Q. Weinberger, "On Calibration of Modern Neural Networks",
+   ICML 2017.
 """
 
 from __future__ import annotations
@@ -20,6 +18,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from laban.motion import FloatArray
+
+FACTORS = np.geomspace(0.02, 10.0, 125)
+"""What log odds may be multiplied by."""
+
+KNOTS = np.linspace(-6.0, 6.0, 25)
+"""Calibrated log odds at which the rising line has its knots; beyond, a reading is 0.995."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +45,7 @@ class Calibration:
 
 
 def fit_calibration(log_odds: FloatArray, meant: FloatArray) -> Calibration:
-    """Fit the line to held-out takes.
+    """Fit the line to held-out takes: twice the chance of the high pole, less 1.
 
     Parameters
     ----------
@@ -50,23 +54,11 @@ def fit_calibration(log_odds: FloatArray, meant: FloatArray) -> Calibration:
     meant
         ``(n,)``: -1 for the low pole, 1 for the high, 0 for a take that is neither and so counts
         half for each: neutral movement then reads near 0 where poles are easy to tell apart.
+        One more take of either pole at even odds is counted with them (Laplace's rule).
     """
-    order = np.argsort(log_odds, kind="stable")
-    groups = np.array_split(order, max(1, round(np.sqrt(len(order)))))  # as many as each has
-    blocks: list[tuple[float, float, int]] = []  # sum of meant, sum of log odds, takes
-    for group in groups:
-        block = (float(meant[group].sum()), float(log_odds[group].sum()), len(group))
-        while blocks and _reading(blocks[-1]) >= _reading(block):
-            last = blocks.pop()
-            block = (last[0] + block[0], last[1] + block[1], last[2] + block[2])
-        blocks.append(block)
-    return Calibration(
-        np.array([total / takes for _, total, takes in blocks]),
-        np.array([_reading(block) for block in blocks]),
-    )
-
-
-def _reading(block: tuple[float, float, int]) -> float:
-    """Return the mean of what was meant, with one more take of either pole (Laplace's rule)."""
-    total, _, takes = block
-    return total / (takes + 2.0)
+    odds = np.append(log_odds, [0.5, 0.5])
+    high = 0.5 * (1.0 + np.append(meant, [1.0, -1.0]))
+    scaled = FACTORS[:, None] * odds
+    loss = (np.logaddexp(0.0, scaled) - high * scaled).sum(axis=1)
+    factor = float(FACTORS[int(np.argmin(loss))])
+    return Calibration(KNOTS / factor, np.tanh(0.5 * KNOTS))

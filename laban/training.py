@@ -1,13 +1,9 @@
-"""Training: from labelled feature vectors to an `EffortModel`.
+"""Training: from labelled descriptions to an `EffortModel`.
 
-Per axis [1]_ (section 5): rank the features by relevance, try the best 1, 2, … 50 of them, and
-keep the number that tells most takes right. Every take is judged by a classifier that has not
-seen its performer, for choosing that number, for the calibration, and, once more from outside,
-for the accuracy that is reported: there the number itself is chosen without the performer.
-
-References
-----------
-.. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
+Per axis, for people who are not known and for people whose own measure is: every candidate is
+judged on performers that it has not learned from, the best is taken, and how sure it may be is
+learned from the same held-out takes. For the accuracy that is reported all of that is done once
+more for each performer without any take of theirs.
 """
 
 from __future__ import annotations
@@ -16,19 +12,28 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from laban.calibration import Calibration, fit_calibration
-from laban.classifier import NaiveBayes, fit_naive_bayes, relevance, telling_range
+from laban.candidates import CANDIDATES, EAGER, Candidate, Fitted, folds
+from laban.classifier import NaiveBayes
+from laban.description import DESCRIPTION_NAMES, FAMILIES
 from laban.effort import AXES, LabanError
-from laban.features import FEATURES
-from laban.model import POLES, AxisModel, EffortModel
+from laban.linear import Linear, Softmax, fit_softmax
+from laban.model import POLES, STATES, AxisModel, EffortModel, JointModel
 from laban.motion import FloatArray
+from laban.own import OwnMeasure
+from laban.reader import Entries, Reader, StateReader
+
+IntArray = NDArray[np.int64]
 
 FEWEST_PERFORMERS = 3
 """Of each pole: leaving one out to judge and one to choose leaves one to learn from."""
 
-SIGNIFICANT_DIGITS = 9
+SIGNIFICANT_DIGITS = 6
 """Of a model's numbers: far finer than any measurement, short enough to read."""
+
+_EVERYTHING = np.array([DESCRIPTION_NAMES.index(name) for name in FAMILIES["everything"]])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,14 +42,14 @@ class AxisReport:
 
     Attributes
     ----------
-    reading : (n,) of each labelled take, by a model that had not seen its performer.
+    reading : (n,) of each labelled take, by a reader that had not seen its performer.
     meant : (n,) -1 low pole, 1 high pole, 0 neither.
-    sweep : (50,) accuracy of the bare classifier with the best 1, 2, … 50 features.
+    families : what was chosen each time, in the order in which performers were left out.
     """
 
     reading: FloatArray
     meant: FloatArray
-    sweep: FloatArray
+    families: tuple[str, ...] = ()
 
     @property
     def accuracy(self) -> float:
@@ -61,14 +66,22 @@ class AxisReport:
 
 @dataclass(frozen=True, slots=True)
 class Training:
-    """A trained model and, per axis, how well it does."""
+    """A trained model and how well it does on performers that were left out.
+
+    Attributes
+    ----------
+    model : of all takes.
+    alone : by axis, where nothing else is known of a performer.
+    own : by axis, where a performer's takes are known, but not what was meant by them.
+    """
 
     model: EffortModel
-    reports: Mapping[str, AxisReport]
+    alone: Mapping[str, AxisReport]
+    own: Mapping[str, AxisReport]
 
 
 def train(
-    features: FloatArray,
+    descriptions: FloatArray,
     meant: Mapping[str, FloatArray],
     performers: Sequence[str],
     *,
@@ -79,8 +92,8 @@ def train(
 
     Parameters
     ----------
-    features
-        ``(n, 50)`` as `laban.features.effort_features` gives.
+    descriptions
+        ``(n, 129)`` as `laban.description.describe` gives.
     meant
         By axis, ``(n,)``: -1 low pole, 1 high pole, 0 neither, NaN not labelled. Takes of
         neither pole serve the calibration alone. An axis without a label is left out.
@@ -96,15 +109,27 @@ def train(
     LabanError
         If nothing is labelled, or a labelled axis has too few performers of a pole.
     """
-    names = np.asarray(performers)
+    whose = np.unique(np.asarray(performers), return_inverse=True)[1]
     labelled = {axis: meant[axis] for axis in AXES if axis in meant}
     labelled = {axis: goal for axis, goal in labelled.items() if np.isfinite(goal).any()}
     check_labels(labelled, performers)
-    parts, reports = {}, {}
+    parts: dict[str, AxisModel] = {}
+    alone: dict[str, AxisReport] = {}
+    own: dict[str, AxisReport] = {}
     for axis, goal in labelled.items():
         known = np.isfinite(goal)
-        parts[axis], reports[axis] = _train_axis(features[known], goal[known], names[known])
-    return Training(EffortModel(parts, trained_on, seed), reports)
+        readers = []
+        for reports, against in ((alone, False), (own, True)):
+            reports[axis] = _held_out_report(descriptions, goal, whose, against)
+            readers.append(_reader(descriptions, goal, whose, against, reports[axis].accuracy))
+        parts[axis] = AxisModel(
+            alone=readers[0],
+            own=readers[1],
+            examples=(int(np.sum(goal < 0)), int(np.sum(goal == 0)), int(np.sum(goal > 0))),
+            performers=len(np.unique(whose[known])),
+        )
+    joint = _joint(descriptions, labelled, whose)
+    return Training(EffortModel(parts, trained_on, seed, joint), alone, own)
 
 
 def check_labels(meant: Mapping[str, FloatArray], performers: Sequence[str]) -> None:
@@ -125,81 +150,148 @@ def check_labels(meant: Mapping[str, FloatArray], performers: Sequence[str]) -> 
         raise LabanError("labels: expected at least one take with an Effort word, got none")
 
 
-def _train_axis(
-    features: FloatArray, meant: FloatArray, performers: np.ndarray
-) -> tuple[AxisModel, AxisReport]:
-    """Train one axis on labelled takes."""
-    at_pole = meant != 0
-    reading = np.zeros(len(meant))
-    for performer in np.unique(performers):
-        inside = performers != performer
-        reading[~inside] = _readings(
-            features[inside], meant[inside], performers[inside], features[~inside]
-        )
-    odds = _held_out_log_odds(features, meant, performers)
-    sweep = _accuracy_by_count(odds, meant)
-    count = _best_count(sweep)
+def typical_of(descriptions: FloatArray, whose: IntArray) -> FloatArray:
+    """Return the mean over people of each one's mean description."""
+    return np.mean([descriptions[whose == p].mean(axis=0) for p in np.unique(whose)], axis=0)
 
-    poles, high = features[at_pole], meant[at_pole] > 0
-    columns = np.argsort(-relevance(poles, high), kind="stable")[:count]
-    bayes = fit_naive_bayes(poles, high).only(columns)
-    lowest, highest = telling_range(bayes, poles[:, columns])
-    calibration = fit_calibration(odds[:, count - 1], meant)
-    report = AxisReport(reading, meant, sweep)
-    part = AxisModel(
-        columns=columns,
-        lowest=_rounded(lowest),
-        highest=_rounded(highest),
-        bayes=NaiveBayes(_rounded(bayes.mean), _rounded(bayes.variance), _short(bayes.prior_high)),
+
+def against_own(descriptions: FloatArray, whose: IntArray, typical: FloatArray) -> FloatArray:
+    """Return descriptions less what each performer's takes, all of them, are read against."""
+    relative = np.empty_like(descriptions)
+    for person in np.unique(whose):
+        mine = whose == person
+        own = OwnMeasure(descriptions[mine].mean(axis=0), int(mine.sum()))
+        relative[mine] = descriptions[mine] - own.beside(typical)
+    return relative
+
+
+def _held_out_report(
+    descriptions: FloatArray, goal: FloatArray, whose: IntArray, against: bool
+) -> AxisReport:
+    """Choose, learn and calibrate without some performers, read theirs; all in turn."""
+    known = np.isfinite(goal)
+    reading = np.full(len(goal), np.nan)
+    families = []
+    for out in folds(whose):
+        inside, asked = ~out & known, out & known
+        if not asked.any():
+            continue
+        seen = descriptions
+        if against:
+            seen = against_own(descriptions, whose, typical_of(descriptions[~out], whose[~out]))
+        name, odds = _chosen(seen[inside], goal[inside], whose[inside])
+        fitted = _fitted(CANDIDATES[name], seen[inside], goal[inside], whose[inside])
+        calibration = fit_calibration(odds, goal[inside])
+        reading[asked] = [calibration.value(o) for o in fitted.log_odds(seen[asked]).tolist()]
+        families.append(name)
+    return AxisReport(reading[known], goal[known], tuple(families))
+
+
+def _reader(
+    descriptions: FloatArray, goal: FloatArray, whose: IntArray, against: bool, accuracy: float
+) -> Reader:
+    """Choose, learn and calibrate on all performers."""
+    typical = typical_of(descriptions, whose)
+    seen = against_own(descriptions, whose, typical) if against else descriptions
+    known = np.isfinite(goal)
+    name, odds = _chosen(seen[known], goal[known], whose[known])
+    fitted = _fitted(CANDIDATES[name], seen[known], goal[known], whose[known])
+    calibration = fit_calibration(odds, goal[known])
+    return Reader(
+        family=name,
+        entries=Entries(
+            fitted.columns,
+            _rounded(fitted.lowest),
+            _rounded(fitted.highest),
+            _rounded(typical[fitted.columns]) if against else None,
+        ),
+        classifier=_short_classifier(fitted.classifier),
         calibration=Calibration(_rounded(calibration.log_odds), _rounded(calibration.reading)),
-        examples=(int(np.sum(meant < 0)), int(np.sum(meant == 0)), int(np.sum(meant > 0))),
-        performers=len(np.unique(performers)),
-        held_out_accuracy=_short(report.accuracy),
+        held_out_accuracy=_short(accuracy),
     )
-    return part, report
 
 
-def _held_out_log_odds(
-    features: FloatArray, meant: FloatArray, performers: np.ndarray
+def _chosen(seen: FloatArray, goal: FloatArray, whose: IntArray) -> tuple[str, FloatArray]:
+    """Return the best candidate on performers left out, and its log odds of each take then."""
+    at_pole = goal != 0
+    best, best_loss, best_odds = "", np.full(int(at_pole.sum()), np.inf), np.zeros(len(goal))
+    for name, candidate in CANDIDATES.items():
+        odds = np.zeros(len(goal))
+        for out in folds(whose):
+            poles = goal[~out & at_pole]
+            if (poles > 0).all() or (poles < 0).all():
+                continue
+            odds[out] = _fitted(candidate, seen[~out], goal[~out], whose[~out]).log_odds(seen[out])
+        loss = np.logaddexp(0.0, -odds[at_pole] * goal[at_pole])
+        better = best_loss - loss
+        margin = float(better.std() / np.sqrt(len(better))) if name in EAGER else 0.0
+        if not better.mean() <= margin:
+            best, best_loss, best_odds = name, loss, odds
+    return best, best_odds
+
+
+def _fitted(candidate: Candidate, seen: FloatArray, goal: FloatArray, whose: IntArray) -> Fitted:
+    """Learn from the takes of either pole."""
+    at_pole = goal != 0
+    return candidate(seen[at_pole], goal[at_pole] > 0, whose[at_pole])
+
+
+def _joint(
+    descriptions: FloatArray, labelled: Mapping[str, FloatArray], whose: IntArray
+) -> JointModel | None:
+    """Train the states of Time and Weight together, where enough takes have a pole on both."""
+    if not {"time", "weight"} <= set(labelled):
+        return None
+    time, weight = labelled["time"], labelled["weight"]
+    state = np.full(len(time), -1, dtype=np.int64)
+    for i, (t, w) in enumerate(STATES):
+        state[(time == t) & (weight == w)] = i
+    both = state >= 0
+    people = [len(np.unique(whose[state == i])) for i in range(len(STATES))]
+    if min(people) < FEWEST_PERFORMERS:
+        return None
+    readers = []
+    for against in (False, True):
+        right = 0
+        for out in folds(whose):
+            seen = _seen(descriptions, whose, typical_of(descriptions[~out], whose[~out]), against)
+            fitted = fit_softmax(seen[both & ~out], state[both & ~out])
+            right += int(
+                (fitted.chances(seen[both & out]).argmax(axis=1) == state[both & out]).sum()
+            )
+        typical = typical_of(descriptions, whose)
+        seen = _seen(descriptions, whose, typical, against)[both]
+        fitted = fit_softmax(seen, state[both])
+        readers.append(
+            StateReader(
+                Entries(
+                    _EVERYTHING,
+                    _rounded(seen.min(axis=0)),
+                    _rounded(seen.max(axis=0)),
+                    _rounded(typical[_EVERYTHING]) if against else None,
+                ),
+                Softmax(_rounded(fitted.weight), _rounded(fitted.bias)),
+                _short(right / int(both.sum())),
+            )
+        )
+    return JointModel(*readers)
+
+
+def _seen(
+    descriptions: FloatArray, whose: IntArray, typical: FloatArray, against: bool
 ) -> FloatArray:
-    """Return log odds ``(n, 50)`` with the best 1 … 50 features, each performer left out."""
-    odds = np.zeros((len(meant), len(FEATURES)))
-    for performer in np.unique(performers):
-        inside = performers != performer
-        odds[~inside] = _log_odds_by_count(features[inside], meant[inside], features[~inside])
-    return odds
+    """Return what states are read from."""
+    whole = against_own(descriptions, whose, typical) if against else descriptions
+    return whole[:, _EVERYTHING]
 
 
-def _log_odds_by_count(features: FloatArray, meant: FloatArray, asked: FloatArray) -> FloatArray:
-    """Learn from takes; return the log odds of others with the best 1 … 50 features."""
-    at_pole = meant != 0
-    poles, high = features[at_pole], meant[at_pole] > 0
-    bayes = fit_naive_bayes(poles, high)
-    order = np.argsort(-relevance(poles, high), kind="stable")
-    terms = bayes.log_odds_terms(np.clip(asked, *telling_range(bayes, poles)))
-    return np.cumsum(terms[:, order], axis=1) + bayes.prior_log_odds
-
-
-def _readings(
-    features: FloatArray, meant: FloatArray, performers: np.ndarray, asked: FloatArray
-) -> FloatArray:
-    """Choose, learn and calibrate on some takes; return the readings of others."""
-    odds = _held_out_log_odds(features, meant, performers)
-    count = _best_count(_accuracy_by_count(odds, meant))
-    calibration = fit_calibration(odds[:, count - 1], meant)
-    asked_odds = _log_odds_by_count(features, meant, asked)[:, count - 1]
-    return np.array([calibration.value(value) for value in asked_odds])
-
-
-def _accuracy_by_count(odds: FloatArray, meant: FloatArray) -> FloatArray:
-    """Return the share of poles told right by the sign of log odds, by number of features."""
-    at_pole = meant != 0
-    return np.mean((odds[at_pole] > 0) == (meant[at_pole] > 0)[:, None], axis=0)
-
-
-def _best_count(sweep: FloatArray) -> int:
-    """Return the number of features with the best accuracy, the fewest among equals."""
-    return int(np.argmax(sweep)) + 1
+def _short_classifier(classifier: NaiveBayes | Linear) -> NaiveBayes | Linear:
+    """Return a classifier with numbers of `SIGNIFICANT_DIGITS`."""
+    if isinstance(classifier, Linear):
+        return Linear(_rounded(classifier.weight), _short(classifier.bias))
+    return NaiveBayes(
+        _rounded(classifier.mean), _rounded(classifier.variance), _short(classifier.prior_high)
+    )
 
 
 def _short(value: float) -> float:

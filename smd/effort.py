@@ -12,21 +12,28 @@ from pathlib import Path
 
 import numpy as np
 
-from laban import AXES, Effort, EffortModel, RigidMotion, effort_features, read_effort
+from laban import AXES, Effort, EffortModel, OwnMeasure, RigidMotion
+from laban.description import DESCRIPTION_NAMES, describe
 from laban.effort import LabanError
-from laban.features import FEATURE_NAMES
-from laban.model import NEUTRAL, POLES
-from laban.training import Training, check_labels, train
+from laban.model import NEUTRAL, POLES, effort_of, is_readable
+from laban.own import FEWEST_TAKES, measure_of
+from laban.training import AxisReport, Training, check_labels, train
 from smd.doodle import Doodle, Recording
 from smd.errors import DoodleError, RecordingError
 from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
-from smd.synthetic.efforts import labelled_takes
+from smd.synthetic.efforts import SPREAD, Spread, fourfold_takes
 
 SIMULATED_PEOPLE = 48
-SIMULATED_REPEATS = 3
+SIMULATED_REPEATS = 4
 SIMULATED_SEED = 20191028
-"""The simulated corpus of the shipped model: 48 people, 9 pairs of Efforts, 3 takes of each."""
+"""The simulated corpus of the shipped model: 48 people, 9 pairs of Efforts, 4 takes of each."""
+
+SHOWN = 10
+"""More features of a reader are counted; the model's file has them all."""
+
+ENOUGH_PERFORMERS, GOOD_ENOUGH = 8, 0.8
+"""Below either, training says what to record more of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,19 +58,19 @@ class Examples:
 
     Attributes
     ----------
-    features : (n, 50).
+    descriptions : (n, 129), as `laban.description.describe` gives.
     meant : (n, 4), as in `ManifestRow`.
     performers : n names.
     """
 
-    features: FloatArray
+    descriptions: FloatArray
     meant: FloatArray
     performers: tuple[str, ...]
 
     def train(self, *, trained_on: str, seed: int | None = None) -> Training:
         """Train every axis that is labelled."""
         return train(
-            self.features,
+            self.descriptions,
             dict(zip(AXES, self.meant.T, strict=True)),
             self.performers,
             trained_on=trained_on,
@@ -76,13 +83,14 @@ def simulated_examples(
     people: int = SIMULATED_PEOPLE,
     repeats: int = SIMULATED_REPEATS,
     seed: int = SIMULATED_SEED,
+    spread: Spread = SPREAD,
 ) -> Examples:
-    """Return takes of simulated people (`smd.synthetic.efforts`), Time and Weight labelled."""
-    takes = list(labelled_takes(people=people, repeats=repeats, seed=seed))
+    """Return takes of simulated people (`smd.synthetic.efforts`), all axes labelled."""
+    takes = list(fourfold_takes(people=people, repeats=repeats, seed=seed, spread=spread))
     meant = [[getattr(take.effort, axis) for axis in AXES] for take in takes]
     return Examples(
-        features=np.array([effort_features(smooth(take.doodle)) for take in takes]),
-        meant=np.array(meant, dtype=np.float64),  # None, not labelled, becomes NaN
+        descriptions=np.array([describe(smooth(take.doodle)) for take in takes]),
+        meant=np.array(meant, dtype=np.float64),
         performers=tuple(take.player for take in takes),
     )
 
@@ -91,7 +99,7 @@ def train_simulated() -> Training:
     """Train the shipped model; the same numbers each time."""
     examples = simulated_examples()
     return examples.train(
-        trained_on=f"{len(examples.features)} simulated takes of {SIMULATED_PEOPLE} simulated "
+        trained_on=f"{len(examples.descriptions)} simulated takes of {SIMULATED_PEOPLE} simulated "
         "people (smd.synthetic.efforts)",
         seed=SIMULATED_SEED,
     )
@@ -127,8 +135,8 @@ def train_manifest(
         check_labels(dict(zip(AXES, meant.T, strict=True)), performers)
     except LabanError as error:
         raise LabanError(f"{path}: {error}") from error
-    features = [effort_features(_only_motion(row.path, read)) for row in progress(rows)]
-    examples = Examples(np.array(features), meant, performers)
+    described = [describe(_only_motion(row.path, read)) for row in progress(rows)]
+    examples = Examples(np.array(described), meant, performers)
     people = len(set(performers))
     return examples.train(trained_on=f"{len(rows)} takes of {people} performers ({path.name})")
 
@@ -203,38 +211,112 @@ def _meant(where: str, axis: str, word: str) -> float:
     return values[word.lower()]
 
 
-def recording_efforts(recording: Recording, model: EffortModel) -> Iterator[tuple[Doodle, Effort]]:
-    """Yield each doodle of a recording with its Effort; one too short to smooth has none."""
+def recording_efforts(
+    recording: Recording, model: EffortModel, own: OwnMeasure | None = None
+) -> Iterator[tuple[Doodle, RigidMotion | None, Effort]]:
+    """Yield each doodle of a recording with its motion and Effort; too short ones have none."""
     for doodle in recording.doodles:
         try:
             motion = smooth(doodle)
         except DoodleError:
-            yield doodle, Effort()
-        else:
-            yield doodle, read_effort(motion, model)
+            yield doodle, None, Effort()
+            continue
+        effort = effort_of(describe(motion), model, own) if is_readable(motion) else Effort()
+        yield doodle, motion, effort
+
+
+def performers_measure(recordings: Iterable[Recording]) -> OwnMeasure:
+    """Return how somebody moves, from takes of theirs; what was meant by them is not asked.
+
+    Raises
+    ------
+    LabanError
+        If fewer than `laban.own.FEWEST_TAKES` doodles of them can be read.
+    """
+    described = []
+    for recording in recordings:
+        for doodle in recording.doodles:
+            try:
+                motion = smooth(doodle)
+            except DoodleError:
+                continue
+            if is_readable(motion):
+                described.append(describe(motion))
+    measure = measure_of(np.array(described)) if described else None
+    if measure is None:
+        raise LabanError(
+            f"performer: expected at least {FEWEST_TAKES} takes that move, got {len(described)}"
+        )
+    return measure
 
 
 def report_lines(training: Training) -> list[str]:
     """Return what a training came to, as lines for people."""
     lines = []
-    for axis, report in training.reports.items():
+    for axis, part in training.model.axes.items():
         low, high = POLES[axis]
-        part = training.model.axes[axis]
-        told, meant = report.reading > 0, report.meant
-        right = int(np.sum((told == (meant > 0))[meant != 0]))
+        alone, own = training.alone[axis], training.own[axis]
+        lines += [
+            f"{axis}: {_share(alone)} right, each judged without its performer "
+            f"({part.performers} performers), Brier score {alone.brier_score:.3f}",
+            f"  with the performer's other takes: {_share(own)}, Brier score {own.brier_score:.3f}",
+            f"  {'meant':>10}  read {low}, {high}, mean",
+        ]
+        for word, pole in ((low, -1), (NEUTRAL, 0), (high, 1)):
+            of = alone.meant == pole
+            if of.any():
+                told = alone.reading[of]
+                lines.append(
+                    f"  {word:>10}  {int(np.sum(told <= 0))}, {int(np.sum(told > 0))}, "
+                    f"{told.mean():+.2f}"
+                )
+        for name, reader in (("alone", part.alone), ("with other takes", part.own)):
+            if reader is not None:
+                names = [DESCRIPTION_NAMES[column] for column in reader.entries.columns]
+                more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+                lines.append(f"  {name}: {reader.family}: {', '.join(names[:SHOWN])}{more}")
+        lines += [f"  {advice}" for advice in _advice(alone, part.performers, (low, high))]
+    joint = training.model.joint
+    if joint is not None:
         lines.append(
-            f"{axis}: {100 * report.accuracy:.0f} % right ({right} of {int(np.sum(meant != 0))} "
-            f"takes, each judged without its performer; {part.performers} performers), "
-            f"Brier score {report.brier_score:.3f}"
+            f"time and weight together: {100 * joint.alone.held_out_accuracy:.0f} % of the joint "
+            f"states right, {100 * joint.own.held_out_accuracy:.0f} % with other takes"
         )
-        for word, pole in ((low, -1), (high, 1)):
-            of = meant == pole
-            lines.append(
-                f"  {word}: {int(np.sum(told[of] == (pole > 0)))} of {int(np.sum(of))} right, "
-                f"mean reading {report.reading[of].mean():+.2f}"
-            )
-        if (meant == 0).any():
-            lines.append(f"  {NEUTRAL}: mean reading {report.reading[meant == 0].mean():+.2f}")
-        names = ", ".join(FEATURE_NAMES[column] for column in part.columns)
-        lines.append(f"  {len(part.columns)} features: {names}")
     return lines
+
+
+def accuracy_interval(right: int, count: int) -> tuple[float, float]:
+    """Return Wilson's 95 % interval of a share [1]_.
+
+    References
+    ----------
+    .. [1] E. B. Wilson, "Probable Inference, the Law of Succession, and Statistical Inference",
+       Journal of the American Statistical Association 22, 1927.
+    """
+    z, share = 1.96, right / count
+    middle = (share + z * z / (2 * count)) / (1 + z * z / count)
+    half = z / (1 + z * z / count) * np.sqrt(share * (1 - share) / count + (z / (2 * count)) ** 2)
+    return float(middle - half), float(middle + half)
+
+
+def _share(report: AxisReport) -> str:
+    """Return an accuracy with its interval."""
+    count = int(np.sum(report.meant != 0))
+    right = round(report.accuracy * count)
+    low, high = accuracy_interval(right, count)
+    return (
+        f"{100 * right / count:.0f} % ({right} of {count}; {100 * low:.0f} to {100 * high:.0f} %)"
+    )
+
+
+def _advice(report: AxisReport, performers: int, words: tuple[str, str]) -> Iterator[str]:
+    """Yield what to record more of."""
+    if performers < ENOUGH_PERFORMERS:
+        yield f"record more performers: {performers} say little about the next one"
+    shares = []
+    for pole in (-1, 1):
+        of = report.meant == pole
+        shares.append(float(np.mean((report.reading[of] > 0) == (pole > 0))))
+    worse = int(np.argmin(shares))
+    if min(shares) < GOOD_ENOUGH:
+        yield f"record more {words[worse]} takes: {100 * shares[worse]:.0f} % of them are told"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -11,8 +11,9 @@ from smd.errors import DoodleError, ScoreError
 
 if TYPE_CHECKING:
     from actions_library.library import Library
-    from laban import EffortModel
+    from laban import EffortModel, RigidMotion
     from smd.doodle import Doodle, Recording
+    from smd.recognition.recognizer import Span
     from smd.recognition.spotting import Recognizer
     from smd.score import Phrase, Score
     from smd.transfer.performance import Performance
@@ -64,13 +65,13 @@ def parse(
     model = load_effort_model()
     parts, warnings = [], []
     for device in _performing(recording, devices):
-        phrases: list[Phrase] = []
+        played: list[tuple[Span, RigidMotion]] = []
         for doodle in recording.of(device):
             try:
-                phrases.extend(_phrases(doodle, recognizer, model))
+                played.extend(_played(doodle, recognizer))
             except DoodleError as error:
                 warnings.append(f"left out: {error}")
-        parts.append(Part(device, tuple(phrases)))
+        parts.append(Part(device, tuple(_phrases(played, model))))
         warnings.extend(_lost_tracking(recording, device))
     return replace(empty, performers=tuple(parts), warnings=tuple(warnings))
 
@@ -90,19 +91,36 @@ def _performing(recording: Recording, devices: Collection[str] | None) -> tuple[
     return played or known
 
 
-def _phrases(doodle: Doodle, recognizer: Recognizer, model: EffortModel) -> Iterator[Phrase]:
-    """Yield what one doodle says; times to the millisecond, as a Score's file keeps them."""
-    from laban import read_effort
-    from smd.score import Alternative, Phrase
+def _played(doodle: Doodle, recognizer: Recognizer) -> Iterator[tuple[Span, RigidMotion]]:
+    """Yield the actions of one doodle, and how each was drawn."""
     from smd.smoothing import smooth
 
     motion = smooth(doodle)
     for span in recognizer.spot_runs(motion, recognizer.runs_of(doodle, motion)):
+        yield span, motion.between(span.start_s, span.end_s)
+
+
+def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> Iterator[Phrase]:
+    """Yield what one performer says; times to the millisecond, as a Score's file keeps them.
+
+    Effort is read against all that the performer played.
+    """
+    import numpy as np
+
+    from laban import Effort
+    from laban.description import describe
+    from laban.model import effort_of, is_readable
+    from laban.own import measure_of
+    from smd.score import Alternative, Phrase
+
+    described = {i: describe(motion) for i, (_, motion) in enumerate(played) if is_readable(motion)}
+    own = measure_of(np.array(list(described.values())))
+    for i, (span, _) in enumerate(played):
         yield Phrase(
             action=span.action,
             start_s=round(span.start_s, 3),
             end_s=round(span.end_s, 3),
-            effort=read_effort(motion.between(span.start_s, span.end_s), model),
+            effort=effort_of(described[i], model, own) if i in described else Effort(),
             confidence=span.confidence,
             alternatives=tuple(Alternative(*other) for other in span.alternatives),
         )

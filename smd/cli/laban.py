@@ -35,6 +35,13 @@ def classify(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print a JSON list and nothing else.")
     ] = False,
+    performer: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="A take of the same performer, or a folder of them; what was meant by them need "
+            "not be known. Efforts are then read against how this person moves. Repeatable.",
+        ),
+    ] = None,
     up: reading.Up = None,
     front: reading.Front = None,
     handedness: reading.Handedness = None,
@@ -43,18 +50,24 @@ def classify(
     mount: reading.Mount = None,
 ) -> None:
     """Read the Effort of recordings, each doodle taken as one movement."""
-    from laban import AXES, load_effort_model
-    from smd.effort import recording_efforts
+    from laban import AXES, load_effort_model, read_state
+    from laban.model import confidence
+    from smd.effort import performers_measure, recording_efforts
 
     reader = load_effort_model(model)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     files = list(reading.recording_files(recordings))
     rows: list[dict[str, Any]] = []
+    own = None
+    if performer:
+        takes = reading.recording_files(performer)
+        own = performers_measure(options.read(take) for take in takes)
 
     def one(_: int, file: Path) -> None:
-        for doodle, effort in recording_efforts(options.read(file), reader):
+        for doodle, motion, effort in recording_efforts(options.read(file), reader, own):
             values = {axis: getattr(effort, axis) for axis in AXES}
             known = {axis: round(v, 3) for axis, v in values.items() if v is not None}
+            state = None if motion is None else read_state(motion, reader, own)
             start_s, end_s = round(doodle.time_s[0], 3), round(doodle.time_s[-1], 3)
             rows.append(
                 {
@@ -63,10 +76,16 @@ def classify(
                     "start_s": start_s,
                     "end_s": end_s,
                     "effort": known,
+                    "confidence": {axis: round(confidence(v), 3) for axis, v in known.items()},
                 }
             )
+            if state is not None:
+                time, weight, chance = state
+                rows[-1]["state"] = {"time": time, "weight": weight, "confidence": round(chance, 3)}
             if not as_json:
                 shown = "  ".join(f"{axis} {value:+.2f}" for axis, value in known.items())
+                if state is not None:
+                    shown += f"  {state[0]} and {state[1]} ({state[2]:.2f})"
                 where = f"{file}  {doodle.device} {start_s:.2f} – {end_s:.2f} s"
                 typer.echo(f"{where}  {shown or 'too short or too still to read'}")
 
@@ -101,7 +120,7 @@ def train(
 
     Prints how often each axis is told right on performers that were left out.
     """
-    from laban.model import save_effort_model
+    from laban.model_file import save_effort_model
     from smd.effort import report_lines, train_manifest, train_simulated
     from smd.files import replacing
 

@@ -2,12 +2,17 @@ from __future__ import annotations
 
 import json
 from dataclasses import fields, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from laban import AXES, Effort, LabanError, effort_features, load_effort_model, read_effort
-from laban.model import effort_model_from_json, effort_model_to_json, save_effort_model
+from laban.model import read_state
+from laban.model_file import effort_model_from_json, effort_model_to_json, save_effort_model
+from laban.own import own_measure
+
+GOLDEN = Path(__file__).parents[1] / "golden" / "effort_models"
 
 
 @pytest.fixture(scope="module")
@@ -15,9 +20,50 @@ def shipped():
     return load_effort_model()
 
 
-def test_the_shipped_model_reads_time_and_weight(shipped):
-    assert tuple(shipped.axes) == ("time", "weight")
+@pytest.fixture(scope="module")
+def time_alone():
+    """A model of the first version: Time and Weight, the paper's features, naive Bayes."""
+    return load_effort_model(GOLDEN / "version_1.json")
+
+
+def test_the_shipped_model_reads_all_axes_and_joint_states(shipped):
+    assert tuple(shipped.axes) == AXES
     assert shipped.seed is not None
+    assert shipped.joint is not None
+    assert all(part.own is not None for part in shipped.axes.values())
+
+
+def test_a_model_of_the_first_version_still_reads(time_alone, random_motion):
+    assert tuple(time_alone.axes) == ("time", "weight")
+    motion = random_motion(np.random.default_rng(0))
+    own = own_measure([motion] * 3)
+    effort = read_effort(motion, time_alone)
+    assert effort == read_effort(motion, time_alone, own)  # it has no reader for that
+    assert effort.time is not None
+    assert read_state(motion, time_alone) is None
+    assert {part.alone.family for part in time_alone.axes.values()} == {"naive Bayes"}
+
+
+def test_somebodys_own_takes_are_read_about_their_middle(shipped, random_motion):
+    """Who moves quickly anyway is not sudden by it."""
+    motions = [random_motion(np.random.default_rng(s), pace=3.0, size_m=0.05) for s in range(6)]
+    own = own_measure(motions)
+    alone = [read_effort(motion, shipped).time for motion in motions]
+    against = [read_effort(motion, shipped, own).time for motion in motions]
+    assert np.mean(alone) > np.mean(against)
+
+
+def test_too_few_takes_are_no_measure(random_motion):
+    motion = random_motion(np.random.default_rng(0))
+    assert own_measure([motion, motion]) is None
+    assert own_measure([]) is None
+
+
+def test_a_joint_state_has_the_words_of_both_axes_and_a_chance(shipped, random_motion):
+    time, weight, chance = read_state(random_motion(np.random.default_rng(0)), shipped)
+    assert time in ("sustained", "sudden")
+    assert weight in ("light", "strong")
+    assert 0.25 <= chance <= 1.0
 
 
 def test_a_model_is_the_same_after_saving_and_loading(shipped, tmp_path):
@@ -25,12 +71,20 @@ def test_a_model_is_the_same_after_saving_and_loading(shipped, tmp_path):
     again = load_effort_model(tmp_path / "model.json")
     assert effort_model_to_json(again) == effort_model_to_json(shipped)
     for axis, part in shipped.axes.items():
-        np.testing.assert_array_equal(again.axes[axis].bayes.mean, part.bayes.mean)
-        np.testing.assert_array_equal(again.axes[axis].columns, part.columns)
+        ours, theirs = again.axes[axis].own, part.own
+        np.testing.assert_array_equal(ours.classifier.weight, theirs.classifier.weight)
+        np.testing.assert_array_equal(ours.entries.columns, theirs.entries.columns)
+        np.testing.assert_array_equal(ours.entries.typical, theirs.entries.typical)
 
 
-def test_axes_that_were_not_trained_are_not_read(shipped, random_motion):
-    effort = read_effort(random_motion(np.random.default_rng(0)), shipped)
+def test_a_first_version_is_saved_as_the_second(time_alone):
+    text = effort_model_to_json(time_alone)
+    assert json.loads(text)["version"] == 2
+    assert effort_model_to_json(effort_model_from_json(text, source="m")) == text
+
+
+def test_axes_that_were_not_trained_are_not_read(time_alone, random_motion):
+    effort = read_effort(random_motion(np.random.default_rng(0)), time_alone)
     assert effort.time is not None
     assert effort.weight is not None
     assert effort.space is None
@@ -91,14 +145,18 @@ def edited(shipped, *path, value=None, drop=False):
 
 
 TIME = ("axes", "time")
-FEATURE = (*TIME, "features", 0)
+ALONE = (*TIME, "alone")
+FEATURE = (*ALONE, "features", 0)
+OWN = (*TIME, "own", "features", 0)
+JOINT = ("joint", "alone")
 
 
 @pytest.mark.parametrize(
     ("path", "value", "said"),
     [
         (("schema",), "other", r"schema: expected 'laban.effort_model', got 'other'"),
-        (("version",), 2, "version: expected 1, got 2"),
+        (("version",), 3, "version: expected 1 to 2, got 3, a newer version's"),
+        (("version",), 0, "version: expected 1 to 2, got 0$"),
         (("version",), True, "version: got true or false"),
         (("seed",), "x", "seed: got a string"),
         (("trained_on",), None, "trained_on: got null"),
@@ -106,17 +164,20 @@ FEATURE = (*TIME, "features", 0)
         (("axes",), [], "axes: got a list"),
         (("axes", "mood"), {}, "axes: expected some of time, weight, space, flow, got 'mood'"),
         (TIME, 3, r"axes.time: got the number 3"),
-        ((*TIME, "features"), [], "axes.time.features: expected at least one"),
+        ((*ALONE, "features"), [], "axes.time.alone.features: expected at least one"),
         ((*FEATURE, "name"), "beauty", r"features\[0\].name: expected a feature of this version"),
-        ((*FEATURE, "mean"), [1.0], r"features\[0\].mean: expected two numbers"),
-        ((*FEATURE, "mean"), [1.0, float("nan")], r"features\[0\].mean: expected two numbers"),
-        ((*FEATURE, "variance"), [1.0, 0.0], r"features\[0\].variance: expected two positive"),
-        ((*FEATURE, "range"), [2.0, 1.0], r"features\[0\].range: expected lowest and highest"),
-        ((*TIME, "prior_high"), 1.0, "axes.time.prior_high: expected a number from 0 to 1"),
-        ((*TIME, "held_out_accuracy"), 1.5, "axes.time.held_out_accuracy: expected a number"),
-        ((*TIME, "calibration"), [], "axes.time.calibration: expected a list of pairs"),
-        ((*TIME, "calibration"), [[0, 0], [1, -1]], "axes.time.calibration: expected pairs"),
-        ((*TIME, "calibration"), [[0, 2]], "axes.time.calibration: expected pairs"),
+        ((*FEATURE, "weight"), "heavy", r"features\[0\].weight: got a string"),
+        ((*FEATURE, "weight"), float("nan"), r"features\[0\].weight: expected a number"),
+        ((*FEATURE, "range"), [2.0, 1.0], r"features\[0\].range: expected low, high"),
+        ((*OWN, "typical"), None, r"own.features\[0\].typical: got null"),
+        ((*ALONE, "bias"), float("inf"), "axes.time.alone.bias: expected a number"),
+        ((*ALONE, "held_out_accuracy"), 1.5, "alone.held_out_accuracy: expected a number"),
+        ((*ALONE, "calibration"), [], "alone.calibration: expected a list of pairs"),
+        ((*ALONE, "calibration"), [[0, 0], [1, -1]], "alone.calibration: expected rising pairs"),
+        ((*ALONE, "calibration"), [[0, 2]], "alone.calibration: expected rising pairs"),
+        ((*JOINT, "bias"), [0.0], "joint.alone.bias: expected 4 numbers"),
+        ((*JOINT, "features", 0, "weights"), [1, 2, 3, "x"], "weights: expected 4 numbers"),
+        (("joint", "states"), ["quick"], "joint.states: expected sustained light"),
         ((*TIME, "examples", "sudden"), -1, "axes.time.examples.sudden: expected a count"),
         ((*TIME, "performers"), 2.5, "axes.time.performers: got the number 2.5"),
     ],
@@ -131,7 +192,7 @@ def test_a_damaged_model_is_refused_by_file_and_key(shipped, tmp_path, path, val
 
 
 @pytest.mark.parametrize(
-    "path", [("schema",), ("axes",), (*TIME, "calibration"), (*FEATURE, "mean")]
+    "path", [("schema",), ("axes",), (*ALONE, "calibration"), (*FEATURE, "weight"), OWN[:3]]
 )
 def test_a_missing_key_is_named(shipped, path):
     with pytest.raises(LabanError, match=f"{path[-1]}: it is missing"):
@@ -139,7 +200,7 @@ def test_a_missing_key_is_named(shipped, path):
 
 
 def test_a_feature_that_is_there_twice_is_refused(shipped):
-    name = json.loads(effort_model_to_json(shipped))["axes"]["time"]["features"][1]["name"]
+    name = json.loads(effort_model_to_json(shipped))["axes"]["time"]["alone"]["features"][1]["name"]
     with pytest.raises(LabanError, match="is there twice"):
         effort_model_from_json(edited(shipped, *FEATURE, "name", value=name), source="m.json")
 

@@ -3,120 +3,170 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from laban import FEATURES, LabanError
-from laban.features import FEATURE_NAMES
-from laban.model import effort_model_to_json
-from laban.training import train
+from laban import LabanError
+from laban.candidates import CANDIDATES, folds
+from laban.description import DESCRIPTION_NAMES, FAMILIES
+from laban.model_file import effort_model_to_json
+from laban.own import OwnMeasure
+from laban.training import against_own, train, typical_of
 
-D = len(FEATURES)
+D = len(DESCRIPTION_NAMES)
+SPEED = DESCRIPTION_NAMES.index("log_rms_speed")
+ROUND = DESCRIPTION_NAMES.index("log_roundness")
 
 
 def crowd(seed=0, *, people=8, takes=6):
-    """Noise for features, and poles in turn."""
+    """Noise for descriptions, and poles in turn."""
     rng = np.random.default_rng(seed)
     performers = np.repeat([f"p{i}" for i in range(people)], takes)
     meant = np.tile([-1.0, 1.0], people * takes // 2)
-    return rng.lognormal(size=(len(meant), D)), meant, performers
+    return rng.normal(size=(len(meant), D)), meant, performers
 
 
-def test_the_features_that_tell_the_poles_apart_are_chosen():
-    features, meant, performers = crowd()
-    for column, gain in ((3, 6.0), (17, 4.0)):
-        features[:, column] += gain * (meant > 0)
-    training = train(features, {"time": meant}, performers, trained_on="test")
-    chosen = training.model.axes["time"].columns
-    assert {3, 17} & set(chosen[:2])
-    assert len(chosen) < 10
-    assert training.reports["time"].accuracy > 0.85
+@pytest.mark.parametrize(("column", "family"), [(SPEED, "vigour"), (ROUND, "geometry")])
+def test_the_family_that_tells_the_poles_apart_is_chosen(column, family):
+    described, meant, performers = crowd()
+    described[:, column] += 4.0 * meant
+    training = train(described, {"time": meant}, performers, trained_on="test")
+    assert training.model.axes["time"].alone.family == family
+    assert set(training.alone["time"].families) == {family}
+    assert training.alone["time"].accuracy > 0.95
 
 
-def test_labels_without_a_trace_in_the_features_are_told_no_better_than_by_chance():
+def test_labels_without_a_trace_are_told_no_better_than_by_chance():
     accuracies = []
-    for seed in range(6):
-        features, meant, performers = crowd(seed)
-        report = train(features, {"time": meant}, performers, trained_on="test").reports["time"]
-        accuracies.append(report.accuracy)
-    # 288 takes: chance alone stays within 3 standard deviations of 0.03
+    for seed in range(100, 108):
+        described, meant, performers = crowd(seed, people=5, takes=8)
+        training = train(described, {"time": meant}, performers, trained_on="test")
+        accuracies.append(training.alone["time"].accuracy)
+    # 320 takes: chance alone stays within 3 standard deviations of 0.03
     assert abs(np.mean(accuracies) - 0.5) < 0.09
 
 
 def test_what_only_gives_a_performer_away_does_not_count():
-    """Each performer has a feature of their own that tells their poles, as no other's does."""
-    features, meant, performers = crowd()
+    """Each performer has an entry of their own that tells their poles, as no other's does."""
+    described, meant, performers = crowd()
+    columns = [DESCRIPTION_NAMES.index(name) for name in FAMILIES["vigour"]]
     for i, name in enumerate(np.unique(performers)):
-        own = performers == name
-        features[own, i] += 5.0 * meant[own] * (-1.0) ** i + 6.0
-    report = train(features, {"time": meant}, performers, trained_on="test").reports["time"]
-    assert report.accuracy < 0.75
+        mine = performers == name
+        described[mine, columns[i % len(columns)]] += 5.0 * meant[mine] * (-1.0) ** i + 6.0
+    training = train(described, {"time": meant}, performers, trained_on="test")
+    assert training.alone["time"].accuracy < 0.75
+
+
+def test_people_whose_middles_differ_are_told_against_their_own_takes():
+    described, meant, performers = crowd(takes=8)
+    middles = 4.0 * np.arange(8)[np.unique(performers, return_inverse=True)[1]]
+    described[:, SPEED] = 0.3 * described[:, SPEED] + middles + 3.0 * meant
+    training = train(described, {"time": meant}, performers, trained_on="test")
+    assert training.alone["time"].accuracy < 0.75
+    assert training.own["time"].accuracy > 0.9
 
 
 def test_only_labelled_axes_are_trained_and_each_on_its_own_takes():
-    features, meant, performers = crowd()
-    features[:, 5] += 5.0 * (meant > 0)
+    described, meant, performers = crowd()
+    described[:, SPEED] += 5.0 * meant
     half = np.arange(len(meant)) < 24
     labels = {
         "time": meant,
         "weight": np.where(half, meant, np.nan),
         "space": np.full(len(meant), np.nan),
     }
-    model = train(features, labels, performers, trained_on="test").model
+    model = train(described, labels, performers, trained_on="test").model
     assert tuple(model.axes) == ("time", "weight")
     assert model.axes["weight"].examples == (12, 0, 12)
     assert model.axes["weight"].performers == 4
+    assert model.joint is None  # no take is sudden and light
 
 
 def test_neutral_takes_calibrate_and_do_not_train():
-    features, meant, performers = crowd(takes=9)
+    described, meant, performers = crowd(takes=9)
     meant = np.tile([-1.0, 0.0, 1.0], len(meant) // 3)
-    features[:, 5] = 10.0 + 3.0 * meant + features[:, 5]
-    with_neutral = train(features, {"time": meant}, performers, trained_on="test")
+    described[:, SPEED] += 3.0 * meant
+    training = train(described, {"time": meant}, performers, trained_on="test")
     poles = meant != 0
-    without = train(features[poles], {"time": meant[poles]}, performers[poles], trained_on="test")
-    ours, theirs = with_neutral.model.axes["time"], without.model.axes["time"]
-    np.testing.assert_array_equal(ours.columns, theirs.columns)
-    np.testing.assert_array_equal(ours.bayes.mean, theirs.bayes.mean)
-    reading = with_neutral.reports["time"].reading
+    without = train(described[poles], {"time": meant[poles]}, performers[poles], trained_on="")
+    ours, theirs = (t.model.axes["time"].alone.classifier for t in (training, without))
+    np.testing.assert_allclose(ours.weight, theirs.weight)
+    reading = training.alone["time"].reading
     assert abs(reading[meant == 0].mean()) < 0.15
     assert reading[meant > 0].mean() > 0.5
     assert reading[meant < 0].mean() < -0.5
 
 
+def test_joint_states_are_trained_where_both_axes_have_poles():
+    described, _, performers = crowd(takes=8)
+    time, weight = np.tile([-1.0, -1, 1, 1], 16), np.tile([-1.0, 1, -1, 1], 16)
+    described[:, SPEED] += 3.0 * time
+    described[:, ROUND] += 3.0 * weight
+    training = train(described, {"time": time, "weight": weight}, performers, trained_on="test")
+    assert training.model.joint is not None
+    assert training.model.joint.alone.held_out_accuracy > 0.7
+    chances = training.model.joint.chances(described[3])
+    assert chances.sum() == pytest.approx(1.0)
+    assert chances.argmax() == 3  # sudden and strong
+
+
 def test_training_twice_gives_the_same_model():
-    features, meant, performers = crowd()
+    described, meant, performers = crowd()
     models = [
-        train(features, {"flow": meant}, performers, trained_on="test").model for _ in range(2)
+        train(described, {"flow": meant}, performers, trained_on="test").model for _ in range(2)
     ]
     assert effort_model_to_json(models[0]) == effort_model_to_json(models[1])
 
 
-def test_the_unit_of_a_feature_does_not_matter():
-    features, meant, performers = crowd()
-    features[:, 5] += 5.0 * (meant > 0)
-    scaled = features.copy()
-    scaled[:, 5] *= 1000.0
-    a, b = (train(x, {"time": meant}, performers, trained_on="") for x in (features, scaled))
-    assert FEATURE_NAMES[a.model.axes["time"].columns[0]] == FEATURE_NAMES[5]
-    np.testing.assert_allclose(a.reports["time"].reading, b.reports["time"].reading, atol=1e-3)
+@pytest.mark.parametrize("name", [name for name in CANDIDATES if name != "naive Bayes"])
+def test_the_unit_of_an_entry_does_not_matter(name):
+    described, meant, performers = crowd()
+    described[:, SPEED] += 2.0 * meant
+    whose = np.unique(performers, return_inverse=True)[1]
+    scale, shift = np.random.default_rng(1).uniform(0.1, 10.0, (2, D))
+    a = CANDIDATES[name](described, meant > 0, whose).log_odds(described)
+    changed = scale * described + shift
+    b = CANDIDATES[name](changed, meant > 0, whose).log_odds(changed)
+    np.testing.assert_allclose(a, b, atol=1e-5)
+
+
+@pytest.mark.parametrize("people", [4, 12, 13, 48])
+def test_folds_leave_everybody_out_once_and_nobody_in_part(people):
+    whose = np.random.default_rng(0).permutation(np.repeat(np.arange(people), 3))
+    out = np.array(folds(whose))
+    assert (out.sum(axis=0) == 1).all()
+    for person in range(people):
+        mine = out[:, whose == person]
+        assert (mine.all(axis=1) | ~mine.any(axis=1)).all()
+
+
+def test_own_takes_are_read_against_themselves_and_a_little_of_a_typical_person():
+    described, _, performers = crowd(people=3)
+    whose = np.unique(performers, return_inverse=True)[1]
+    typical = typical_of(described, whose)
+    np.testing.assert_allclose(typical, described.mean(axis=0))
+    mine = described[whose == 1]
+    own = OwnMeasure(mine.mean(axis=0), 6)
+    expected = mine - (6.0 * mine.mean(axis=0) + 2.0 * typical) / 8.0
+    np.testing.assert_allclose(against_own(described, whose, typical)[whose == 1], expected)
+    np.testing.assert_allclose(mine - own.beside(typical), expected)
 
 
 def test_too_few_performers_of_a_pole_are_said_so():
-    features, meant, performers = crowd(people=4)
+    described, meant, performers = crowd(people=4)
     meant[(meant > 0) & (performers > "p1")] = 0.0
     with pytest.raises(
         LabanError,
         match=r"time: expected 'sudden' takes of at least 3 performers, "
         r"got 2 \(p0, p1\)",
     ):
-        train(features, {"time": meant}, performers, trained_on="test")
+        train(described, {"time": meant}, performers, trained_on="test")
 
 
 def test_one_class_only_is_said_so():
-    features, meant, performers = crowd()
+    described, meant, performers = crowd()
     with pytest.raises(LabanError, match="weight: expected 'light' takes of at least 3 performers"):
-        train(features, {"weight": np.abs(meant)}, performers, trained_on="test")
+        train(described, {"weight": np.abs(meant)}, performers, trained_on="test")
 
 
 def test_nothing_labelled_is_said_so():
-    features, meant, performers = crowd()
+    described, meant, performers = crowd()
     with pytest.raises(LabanError, match="at least one take with an Effort word"):
-        train(features, {"time": np.nan * meant}, performers, trained_on="test")
+        train(described, {"time": np.nan * meant}, performers, trained_on="test")

@@ -1,0 +1,124 @@
+"""Description: everything that is measured of one movement, as one row of numbers.
+
+The 50 features of the paper as they are, their logarithms, and the qualities: what a reader of
+Effort may choose from. Classifiers learn from few takes which of it tells; `FAMILIES` are the
+choices that they are offered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+from laban.features import FEATURES, MIN_SAMPLES, Feature, effort_features
+from laban.motion import FloatArray, RigidMotion
+from laban.qualities import QUALITIES, movement_qualities
+from laban.trimming import without_still_ends
+
+FLOORS: Mapping[str, float] = MappingProxyType(
+    {
+        "m/s": 0.005,
+        "m/s^2": 0.05,
+        "m/s^3": 0.5,
+        "rad/s": 0.02,
+        "rad/s^2": 0.2,
+        "rad/s^3": 2.0,
+        "1/m": 0.2,
+        "m^(1/2)/s": 0.02,
+        "m^(1/2)/s^2": 0.2,
+    }
+)
+"""Added before the logarithm, by unit: about what a resting hand has."""
+
+LOGARITHMS: tuple[Feature, ...] = tuple(
+    Feature(f"log_{f.name}", f"log {f.unit}", f"log ({f.formula} + {FLOORS[f.unit]:g})")
+    for f in FEATURES
+)
+
+DESCRIPTION: tuple[Feature, ...] = (*FEATURES, *LOGARITHMS, *QUALITIES)
+"""The 129 entries of a description, in order."""
+
+DESCRIPTION_NAMES: tuple[str, ...] = tuple(feature.name for feature in DESCRIPTION)
+
+_NOISE_DECIDES = (
+    "jerk",
+    "torsion",
+    "equi_affine",
+    *(f"angular_{axis}_acceleration" for axis in ("left", "up", "front")),
+)
+
+FAMILIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "vigour": (
+            "log_rms_speed",
+            "log_peak_speed",
+            "log_peak_acceleration",
+            "log_euclidean_acceleration_mean",
+            "log_duration",
+            "log_speed_over_extent",
+            "log_acceleration_over_extent",
+        ),
+        "geometry": (
+            "log_roundness",
+            "log_flatness",
+            "log_path_over_reach",
+            "log_straightness",
+            "log_turning",
+            "log_rotation",
+        ),
+        "turning": (
+            "log_flatness",
+            "log_turning_rate",
+            "log_rotation_rate",
+            "log_curvature_mean",
+            "log_curvature_sd",
+        ),
+        "smoothness": (
+            "spectral_arc_length",
+            "log_dimensionless_jerk",
+            "log_submovements",
+            "log_submovement_rate",
+            "time_to_peak",
+            "slow_share",
+            "log_jerk_over_acceleration",
+            "log_acceleration_over_speed",
+            "log_speed_range",
+            "log_speed_variation",
+        ),
+        "everything": tuple(
+            f.name
+            for f in (*LOGARITHMS, *QUALITIES)
+            if not any(w in f.name for w in _NOISE_DECIDES)
+        ),
+    }
+)
+"""Entries that belong together, smallest ideas first: few takes can only choose among few.
+*Everything* is all but what a tracker's noise decides."""
+
+_FLOOR = np.array([FLOORS[feature.unit] for feature in FEATURES])
+
+
+def describe(motion: RigidMotion) -> FloatArray:
+    """Return the description of one span of movement, its still ends left out.
+
+    Parameters
+    ----------
+    motion
+        At least `laban.features.MIN_SAMPLES` samples. Where fewer of them move, all are used.
+
+    Returns
+    -------
+    (129,) finite, in the order of `DESCRIPTION`.
+
+    Raises
+    ------
+    LabanError
+        If there are fewer samples.
+    """
+    moving = without_still_ends(motion)
+    if len(moving) < MIN_SAMPLES:
+        moving = motion
+    features = effort_features(moving)
+    return np.concatenate([features, np.log(features + _FLOOR), movement_qualities(moving)])
