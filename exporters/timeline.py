@@ -17,7 +17,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from exporters.palette import RGB, action_colors
-from laban import AXES, RigidMotion
+from laban import AXES, RigidMotion, effort_over_time, load_effort_model
 from smd.errors import DoodleError
 from smd.files import replacing
 from smd.recognition.tokenizer import tokenize
@@ -83,7 +83,7 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         _draw_blocks(axes["moves"], _token_blocks(strings, lambda token: token.translation, "T"))
         _draw_blocks(axes["turns"], _token_blocks(strings, lambda token: token.rotation, "R"))
         _draw_blocks(axes["phrase"], _phrase_blocks(part, action_colors(score)))
-        _draw_effort(axes["effort"], part)
+        _draw_effort(axes["effort"], part, [motion for _, motion in motions])
         _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])
     figure.suptitle(
         f"{Path(score.recording or recording.source).name}    {first_s:.2f} to {last_s:.2f} s",
@@ -254,8 +254,11 @@ def _fitting(axes: Any, block: Block) -> str:
     return ""
 
 
-def _draw_effort(axes: Any, part: Part) -> None:
-    """Draw each phrase's Effort as bars from the middle: up is sudden, strong, direct, bound."""
+def _draw_effort(axes: Any, part: Part, motions: Sequence[RigidMotion]) -> None:
+    """Draw Effort from the middle, up is sudden, strong, direct, bound: phrases as bars.
+
+    Thin lines show it in a sliding window, as a stream would read it, phrase or not.
+    """
     axes.set_ylim(-1.15, 1.15)
     axes.set_yticks([-1, 0, 1], ["−1", "0", "+1"])
     axes.tick_params(left=True, labelleft=True)
@@ -277,6 +280,12 @@ def _draw_effort(axes: Any, part: Part) -> None:
             color=_EFFORT_COLORS[axis],
             label=axis,
         )
+    model = load_effort_model()
+    for motion in motions:
+        curve = effort_over_time(motion, model)
+        for axis in shown:
+            values = curve.values[:, AXES.index(axis)]
+            axes.plot(curve.time_s, values, color=_EFFORT_COLORS[axis], linewidth=0.9, alpha=0.75)
     if shown:
         axes.legend(
             loc="center left",

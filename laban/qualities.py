@@ -159,3 +159,10 @@ def spectral_arc_length(speed: FloatArray, step_s: float) -> float:
     if last == 0:
         return 0.0
     return -float(np.sum(np.hypot(1.0 / last, np.diff(height[: last + 1]))))
+
+
+def quality_table() -> str:
+    """Return the qualities as a Markdown table."""
+    rows = ["| quality | unit | formula |", "|---|---|---|"]
+    rows += [f"| `{q.name}` | {q.unit or '–'} | {q.formula} |" for q in QUALITIES]
+    return "\n".join(rows) + "\n"

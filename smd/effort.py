@@ -18,6 +18,7 @@ from laban.effort import LabanError
 from laban.model import NEUTRAL, POLES, effort_of, is_readable
 from laban.own import FEWEST_TAKES, measure_of
 from laban.training import AxisReport, Training, check_labels, train
+from laban.windows import WINDOW_S
 from smd.doodle import Doodle, Recording
 from smd.errors import DoodleError, RecordingError
 from smd.geometry.arrays import FloatArray
@@ -95,9 +96,35 @@ def simulated_examples(
     )
 
 
+def windowed_examples(
+    *,
+    people: int = SIMULATED_PEOPLE,
+    repeats: int = SIMULATED_REPEATS,
+    seed: int = SIMULATED_SEED,
+) -> Examples:
+    """Return `simulated_examples`, every other one seen through a sliding window.
+
+    The window lies anywhere in the take (the whole take, where that is shorter), so that Effort
+    over time is read by a model that knows what a movement without its beginning looks like.
+    """
+    rng = np.random.default_rng([seed, 1])
+    described, meant, performers = [], [], []
+    for i, take in enumerate(fourfold_takes(people=people, repeats=repeats, seed=seed)):
+        motion = smooth(take.doodle)
+        room_s = float(motion.time_s[-1] - motion.time_s[0]) - WINDOW_S
+        if i % 2 and room_s > 0.0:
+            start_s = float(motion.time_s[0]) + rng.uniform(0.0, room_s)
+            window = motion.between(start_s, start_s + WINDOW_S)
+            motion = window if is_readable(window) else motion
+        described.append(describe(motion))
+        meant.append([getattr(take.effort, axis) for axis in AXES])
+        performers.append(take.player)
+    return Examples(np.array(described), np.array(meant, dtype=np.float64), tuple(performers))
+
+
 def train_simulated() -> Training:
     """Train the shipped model; the same numbers each time."""
-    examples = simulated_examples()
+    examples = windowed_examples()
     return examples.train(
         trained_on=f"{len(examples.descriptions)} simulated takes of {SIMULATED_PEOPLE} simulated "
         "people (smd.synthetic.efforts)",

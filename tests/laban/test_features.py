@@ -8,6 +8,7 @@ import pytest
 
 from laban import FEATURES, LabanError, RigidMotion, effort_features
 from laban.features import FEATURE_NAMES, SIGNALS, feature_table
+from laban.qualities import quality_table
 from smd.geometry.rotations import multiply, quaternion_about, quaternion_from_rotvec, rotate
 
 RADIUS_M, RISE_M = 0.2, 0.05  # a helix: (r cos, c angle, r sin)
@@ -217,6 +218,7 @@ def test_the_shortest_movement_has_finite_features(random_motion):
     assert np.isfinite(effort_features(motion)).all()
 
 
-def test_the_table_in_the_docs_is_the_one_of_the_code():
+@pytest.mark.parametrize("table", [feature_table, quality_table])
+def test_the_tables_in_the_docs_are_those_of_the_code(table):
     page = Path(__file__).parents[2] / "docs" / "effort.md"
-    assert feature_table() in page.read_text(encoding="utf-8")
+    assert table() in page.read_text(encoding="utf-8")

@@ -16,6 +16,7 @@ from smd.effort import (
     report_lines,
     simulated_examples,
     train_manifest,
+    windowed_examples,
 )
 from smd.errors import DoodleError, RecordingError
 from smd.synthetic.efforts import labelled_takes
@@ -168,7 +169,7 @@ def test_the_shipped_model_was_made_by_its_command_from_these_people():
 
 def test_training_on_these_people_gives_the_shipped_model_again():
     """One axis, for time; ``smd laban train --simulated`` makes all, byte for byte."""
-    examples = simulated_examples()
+    examples = windowed_examples()
     weight = {"weight": examples.meant[:, AXES.index("weight")]}
     again = train(examples.descriptions, weight, examples.performers, trained_on="").model
     ours, theirs = (m.axes["weight"].own for m in (again, load_effort_model()))
