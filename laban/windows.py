@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -79,34 +80,35 @@ class EffortStream:
         self._own = own
         self._window_s = window_s
         self._step_s = step_s
-        self._kept: RigidMotion | None = None
-        self._next_s = np.nan  # where the next window begins
+        self._pieces: list[RigidMotion] = []  # from where the next window begins, or before
+        self._next_s = np.nan
 
     def push(self, motion: RigidMotion) -> list[tuple[float, Effort]]:
         """Take the samples that follow, and return the windows they complete: middle and Effort."""
         if not len(motion):
             return []
-        self._kept = motion if self._kept is None else joined(self._kept, motion)
+        self._pieces.append(motion)
         if np.isnan(self._next_s):
-            self._next_s = float(self._kept.time_s[0])
+            self._next_s = float(motion.time_s[0])
+        last_s = float(motion.time_s[-1])
+        if self._next_s + self._window_s > last_s + 1e-9:
+            return []
+        kept = joined(self._pieces)
         found = []
-        last_s = float(self._kept.time_s[-1])
         while self._next_s + self._window_s <= last_s + 1e-9:
             end_s = self._next_s + self._window_s
-            window = self._kept.between(self._next_s, end_s)
-            effort = read_effort(window, self._model, self._own)
+            effort = read_effort(kept.between(self._next_s, end_s), self._model, self._own)
             found.append((0.5 * (self._next_s + end_s), effort))
             self._next_s += self._step_s
-        if self._next_s > self._kept.time_s[0] + self._window_s:
-            self._kept = self._kept.between(self._next_s, np.inf)
+        self._pieces = [kept.between(self._next_s, np.inf)]
         return found
 
 
-def joined(first: RigidMotion, second: RigidMotion) -> RigidMotion:
-    """Return two pieces of a movement as one; the second follows the first at the same steps."""
+def joined(pieces: Sequence[RigidMotion]) -> RigidMotion:
+    """Return pieces of a movement as one; each follows the one before at the same steps."""
     return RigidMotion(
         *(
-            np.concatenate([getattr(first, field.name), getattr(second, field.name)])
+            np.concatenate([getattr(piece, field.name) for piece in pieces])
             for field in fields(RigidMotion)
         )
     )
