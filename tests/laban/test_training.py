@@ -15,7 +15,7 @@ SPEED = DESCRIPTION_NAMES.index("log_rms_speed")
 ROUND = DESCRIPTION_NAMES.index("log_roundness")
 
 
-def crowd(seed=0, *, people=8, takes=6):
+def crowd(seed=0, *, people=6, takes=6):
     """Noise for descriptions, and poles in turn."""
     rng = np.random.default_rng(seed)
     performers = np.repeat([f"p{i}" for i in range(people)], takes)
@@ -35,12 +35,12 @@ def test_the_family_that_tells_the_poles_apart_is_chosen(column, family):
 
 def test_labels_without_a_trace_are_told_no_better_than_by_chance():
     accuracies = []
-    for seed in range(100, 108):
+    for seed in range(100, 104):
         described, meant, performers = crowd(seed, people=5, takes=8)
         training = train(described, {"time": meant}, performers, trained_on="test")
         accuracies.append(training.alone["time"].accuracy)
-    # 320 takes: chance alone stays within 3 standard deviations of 0.03
-    assert abs(np.mean(accuracies) - 0.5) < 0.09
+    # 160 takes: chance alone stays within 3 standard deviations of 0.04
+    assert abs(np.mean(accuracies) - 0.5) < 0.12
 
 
 def test_what_only_gives_a_performer_away_does_not_count():
@@ -56,7 +56,7 @@ def test_what_only_gives_a_performer_away_does_not_count():
 
 def test_people_whose_middles_differ_are_told_against_their_own_takes():
     described, meant, performers = crowd(takes=8)
-    middles = 4.0 * np.arange(8)[np.unique(performers, return_inverse=True)[1]]
+    middles = 4.0 * np.arange(6)[np.unique(performers, return_inverse=True)[1]]
     described[:, SPEED] = 0.3 * described[:, SPEED] + middles + 3.0 * meant
     training = train(described, {"time": meant}, performers, trained_on="test")
     assert training.alone["time"].accuracy < 0.75
@@ -95,10 +95,10 @@ def test_neutral_takes_calibrate_and_do_not_train():
 
 
 def test_joint_states_are_trained_where_both_axes_have_poles():
-    described, _, performers = crowd(takes=8)
-    time, weight = np.tile([-1.0, -1, 1, 1], 16), np.tile([-1.0, 1, -1, 1], 16)
-    described[:, SPEED] += 3.0 * time
-    described[:, ROUND] += 3.0 * weight
+    described, _, performers = crowd(people=4, takes=40)
+    time, weight = np.tile([-1.0, -1, 1, 1], 40), np.tile([-1.0, 1, -1, 1], 40)
+    described[:, SPEED] += 5.0 * time
+    described[:, ROUND] += 5.0 * weight
     training = train(described, {"time": time, "weight": weight}, performers, trained_on="test")
     assert training.model.joint is not None
     assert training.model.joint.alone.held_out_accuracy > 0.7
