@@ -10,14 +10,17 @@ from __future__ import annotations
 
 import os
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.process import picture_folder, run
 from laban import AXES, EffortModel, EffortStream, RigidMotion, load_effort_model, read_effort
 from laban.candidates import folds, papers_naive_bayes
 from laban.description import describe
@@ -25,10 +28,10 @@ from laban.features import effort_features
 from laban.model import POLES, effort_of
 from laban.own import OwnMeasure, measure_of
 from laban.training import AxisReport, Training
-from smd.doodle import Doodle
+from smd.doodle import Doodle, Recording
 from smd.effort import SIMULATED_SEED, Examples, accuracy_interval, read_manifest
 from smd.effort import simulated_examples as simulated
-from smd.formats import SourceFrame, read_recording
+from smd.formats import SourceFrame, read_recording, write_recording
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import multiply, quaternion_about, quaternion_from_rotvec, rotate
 from smd.smoothing import smooth
@@ -303,6 +306,16 @@ def print_times(motion: RigidMotion, own: OwnMeasure | None) -> None:
     )
 
 
+def print_whole_process() -> None:
+    """Print what classifying 100 files takes, from the start of the program to its end."""
+    with tempfile.TemporaryDirectory() as folder:
+        takes = fourfold_takes(people=6, repeats=2, seed=SEED)
+        for i, take in enumerate(islice(takes, 100)):
+            write_recording(Recording((take.doodle,)), Path(folder, f"{i:03d}.csv"))
+        (runs,) = run([sys.executable, "-m", "smd.cli", "laban", "classify", folder])
+    print(f"smd laban classify of 100 files: {runs}")
+
+
 def draw_reliability(path: Path) -> None:
     """Draw how often the shipped model's chances are right on new simulated people."""
     from matplotlib.figure import Figure
@@ -345,9 +358,10 @@ def main() -> None:
     takes = list(fourfold_takes(people=8, repeats=2, seed=SEED))
     meant = np.array([[getattr(take.effort, axis) for axis in AXES] for take in takes])
     print_robustness("simulated people", [take.doodle for take in takes], meant)
+    print_whole_process()
     print_simulated()
-    if "--picture" in sys.argv:
-        draw_reliability(Path(sys.argv[sys.argv.index("--picture") + 1]) / "effort-chances.png")
+    if folder := picture_folder():
+        draw_reliability(folder / "effort-chances.png")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from importlib.metadata import version
+from pathlib import Path
 from statistics import median
 
 # A child's peak memory counts from what its parent held when it was started, so each command is
@@ -65,6 +66,12 @@ def _measure(command: list[str]) -> tuple[float, float | None]:
         raise SystemExit(f"exit code {code}: {' '.join(command)}")
     unit = 1024.0**2 if sys.platform == "darwin" else 1024.0  # bytes there, KiB elsewhere
     return wall_s, None if peak is None else peak / unit
+
+
+def picture_folder() -> Path | None:
+    """Return the folder that ``--picture FOLDER`` names on the command line, if it does."""
+    where = sys.argv.index("--picture") + 1 if "--picture" in sys.argv else 0
+    return Path(sys.argv[where]) if where else None
 
 
 def machine() -> str:

@@ -1,14 +1,12 @@
 """How well actions are recognised, and how fast: ``python -m benchmarks.recognition``.
 
-Simulated people are ones that nothing was fitted to. Budgets: the stories exactly, boundaries
-within 0.15 s; half a second for a recording of three minutes and two devices. ``--picture FOLDER``
-draws what is missed against what is seen falsely.
+Simulated people are ones that nothing was fitted to. Budget: the stories exactly, boundaries
+within 0.15 s. ``--picture FOLDER`` draws what is missed against what is seen falsely.
 """
 
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -18,6 +16,7 @@ import numpy as np
 
 from actions_library.folder import load_library
 from benchmarks import gestures, performers
+from benchmarks.process import picture_folder
 from benchmarks.takes import long_recording
 from smd.doodle import Doodle
 from smd.errors import DoodleError
@@ -218,8 +217,8 @@ def print_idle() -> None:
             f"{missed:13.1f} %  {which}",
             flush=True,
         )
-    if "--picture" in sys.argv:
-        draw_trade_off(Path(sys.argv[sys.argv.index("--picture") + 1]) / "trade-off.png", curve)
+    if folder := picture_folder():
+        draw_trade_off(folder / "trade-off.png", curve)
 
 
 def poisson_interval(count: int) -> tuple[float, float]:

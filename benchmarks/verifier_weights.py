@@ -9,7 +9,6 @@ confidences with how often they were right, and with ``--picture FOLDER`` draws 
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +16,7 @@ import numpy as np
 
 from benchmarks.gestures import DATA, REPORTED, Gestures, learned_actions, read_gestures
 from benchmarks.gestures import within_people as splits_of
+from benchmarks.process import picture_folder
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition import Recognizer
 from smd.recognition.verification import TERMS, WEIGHTS
@@ -158,8 +158,8 @@ def main() -> None:
     print(f"  shipped {summary(WEIGHTS, others)}")
     for said, was, n in reliability(*confidences(WEIGHTS, others)):
         print(f"    confidence {said:.2f}: right {was:.2f} of {n}")
-    if "--picture" in sys.argv:
-        draw(Path(sys.argv[sys.argv.index("--picture") + 1]) / "confidence.png", others)
+    if folder := picture_folder():
+        draw(folder / "confidence.png", others)
 
 
 if __name__ == "__main__":

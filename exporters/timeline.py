@@ -17,7 +17,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from exporters.palette import RGB, action_colors
-from laban import AXES, RigidMotion, effort_over_time, load_effort_model
+from laban import AXES, EffortCurve, RigidMotion, effort_over_time, load_effort_model
 from smd.errors import DoodleError
 from smd.files import replacing
 from smd.recognition.tokenizer import tokenize
@@ -70,6 +70,7 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
     parts = [part for part in score.performers if part.device in recording.devices]
     first_s = min(doodle.time_s[0] for doodle in recording.doodles)
     last_s = max(doodle.time_s[-1] for doodle in recording.doodles)
+    model = load_effort_model()
     figure, lanes = _sheet(len(parts), float(first_s), float(last_s))
     for part, axes in zip(parts, lanes, strict=True):
         motions = list(_motions(recording.of(part.device)))
@@ -83,7 +84,8 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         _draw_blocks(axes["moves"], _token_blocks(strings, lambda token: token.translation, "T"))
         _draw_blocks(axes["turns"], _token_blocks(strings, lambda token: token.rotation, "R"))
         _draw_blocks(axes["phrase"], _phrase_blocks(part, action_colors(score)))
-        _draw_effort(axes["effort"], part, [motion for _, motion in motions])
+        curves = [effort_over_time(motion, model) for _, motion in motions]
+        _draw_effort(axes["effort"], part, curves)
         _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])
     figure.suptitle(
         f"{Path(score.recording or recording.source).name}    {first_s:.2f} to {last_s:.2f} s",
@@ -254,7 +256,7 @@ def _fitting(axes: Any, block: Block) -> str:
     return ""
 
 
-def _draw_effort(axes: Any, part: Part, motions: Sequence[RigidMotion]) -> None:
+def _draw_effort(axes: Any, part: Part, curves: Sequence[EffortCurve]) -> None:
     """Draw Effort from the middle, up is sudden, strong, direct, bound: phrases as bars.
 
     Thin lines show it in a sliding window, as a stream would read it, phrase or not.
@@ -280,9 +282,7 @@ def _draw_effort(axes: Any, part: Part, motions: Sequence[RigidMotion]) -> None:
             color=_EFFORT_COLORS[axis],
             label=axis,
         )
-    model = load_effort_model()
-    for motion in motions:
-        curve = effort_over_time(motion, model)
+    for curve in curves:
         for axis in shown:
             values = curve.values[:, AXES.index(axis)]
             axes.plot(curve.time_s, values, color=_EFFORT_COLORS[axis], linewidth=0.9, alpha=0.75)

@@ -15,7 +15,7 @@ import numpy as np
 from laban.features import FEATURES, MIN_SAMPLES, Feature, effort_features
 from laban.motion import FloatArray, RigidMotion
 from laban.qualities import QUALITIES, movement_qualities
-from laban.trimming import without_still_ends
+from laban.stillness import without_still_ends
 
 FLOORS: Mapping[str, float] = MappingProxyType(
     {

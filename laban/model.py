@@ -6,7 +6,6 @@ module needs NumPy alone and is what live code loads.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -15,10 +14,10 @@ import numpy as np
 
 from laban.description import describe
 from laban.effort import AXES, Effort, LabanError
-from laban.features import MIN_SAMPLES, SLOW_M_S
 from laban.motion import FloatArray, RigidMotion
 from laban.own import OwnMeasure
 from laban.reader import Reader, StateReader
+from laban.stillness import is_readable
 
 POLES: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
@@ -35,9 +34,6 @@ NEUTRAL = "neutral"
 
 STATES = ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0))
 """The joint states of Time and Weight that a model tells as one decision."""
-
-STILL_RAD_S = 0.1
-"""A body that turns no faster and moves no faster than `SLOW_M_S` (RMS) is at rest."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -139,9 +135,16 @@ def read_state(
 
     None where the model does not know joint states, or there is nothing to read.
     """
-    if model.joint is None or not is_readable(motion):
+    return state_of(describe(motion), model, own) if is_readable(motion) else None
+
+
+def state_of(
+    description: FloatArray, model: EffortModel, own: OwnMeasure | None = None
+) -> tuple[str, str, float] | None:
+    """Return the joint state of a description ``(129,)``; None where the model knows none."""
+    if model.joint is None:
         return None
-    chances = model.joint.chances(describe(motion), own)
+    chances = model.joint.chances(description, own)
     best = int(np.argmax(chances))
     time, weight = STATES[best]
     return POLES["time"][int(time > 0)], POLES["weight"][int(weight > 0)], float(chances[best])
@@ -150,15 +153,3 @@ def read_state(
 def confidence(value: float) -> float:
     """Return the chance of the pole that a reading leans to, in [0.5, 1]."""
     return 0.5 * (1.0 + abs(value))
-
-
-def is_readable(motion: RigidMotion) -> bool:
-    """Return whether there is enough movement to read."""
-    return len(motion) >= MIN_SAMPLES and not is_still(motion)
-
-
-def is_still(motion: RigidMotion) -> bool:
-    """Return whether the body is at rest: RMS speed and angular speed at most a tremor's."""
-    speed = math.sqrt(float(np.sum(motion.velocity_m_s**2)) / len(motion))
-    turning = math.sqrt(float(np.sum(motion.angular_velocity_rad_s**2)) / len(motion))
-    return speed <= SLOW_M_S and turning <= STILL_RAD_S

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from laban.description import describe
-from laban.features import MIN_SAMPLES
 from laban.motion import FloatArray, RigidMotion
+from laban.stillness import is_readable
 
 PRIOR_TAKES = 2.0
 """How many takes of a typical person count beside somebody's own."""
@@ -50,11 +50,10 @@ class OwnMeasure:
 def own_measure(motions: Iterable[RigidMotion]) -> OwnMeasure | None:
     """Return the measure of a performer from takes, or None if there are too few of them.
 
-    Takes too short to describe do not count. What was meant by them is not asked; they had better
-    be various.
+    Takes with too little movement to read do not count. What was meant by them is not asked; they
+    had better be various.
     """
-    described = [describe(motion) for motion in motions if len(motion) >= MIN_SAMPLES]
-    return measure_of(np.array(described)) if described else None
+    return measure_of(np.array([describe(motion) for motion in motions if is_readable(motion)]))
 
 
 def measure_of(descriptions: FloatArray) -> OwnMeasure | None:

@@ -15,15 +15,16 @@ import numpy as np
 from laban import AXES, Effort, EffortModel, OwnMeasure, RigidMotion
 from laban.description import DESCRIPTION_NAMES, describe
 from laban.effort import LabanError
-from laban.model import NEUTRAL, POLES, effort_of, is_readable
-from laban.own import FEWEST_TAKES, measure_of
+from laban.model import NEUTRAL, POLES, effort_of, state_of
+from laban.own import FEWEST_TAKES, own_measure
+from laban.stillness import is_readable
 from laban.training import AxisReport, Training, check_labels, train
 from laban.windows import WINDOW_S
 from smd.doodle import Doodle, Recording
 from smd.errors import DoodleError, RecordingError
 from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
-from smd.synthetic.efforts import SPREAD, Spread, fourfold_takes
+from smd.synthetic.efforts import SPREAD, LabelledTake, Spread, fourfold_takes
 
 SIMULATED_PEOPLE = 48
 SIMULATED_REPEATS = 4
@@ -87,13 +88,8 @@ def simulated_examples(
     spread: Spread = SPREAD,
 ) -> Examples:
     """Return takes of simulated people (`smd.synthetic.efforts`), all axes labelled."""
-    takes = list(fourfold_takes(people=people, repeats=repeats, seed=seed, spread=spread))
-    meant = [[getattr(take.effort, axis) for axis in AXES] for take in takes]
-    return Examples(
-        descriptions=np.array([describe(smooth(take.doodle)) for take in takes]),
-        meant=np.array(meant, dtype=np.float64),
-        performers=tuple(take.player for take in takes),
-    )
+    takes = fourfold_takes(people=people, repeats=repeats, seed=seed, spread=spread)
+    return _examples((take, smooth(take.doodle)) for take in takes)
 
 
 def windowed_examples(
@@ -108,14 +104,24 @@ def windowed_examples(
     over time is read by a model that knows what a movement without its beginning looks like.
     """
     rng = np.random.default_rng([seed, 1])
+
+    def seen() -> Iterator[tuple[LabelledTake, RigidMotion]]:
+        for i, take in enumerate(fourfold_takes(people=people, repeats=repeats, seed=seed)):
+            motion = smooth(take.doodle)
+            room_s = float(motion.time_s[-1] - motion.time_s[0]) - WINDOW_S
+            if i % 2 and room_s > 0.0:
+                start_s = float(motion.time_s[0]) + rng.uniform(0.0, room_s)
+                window = motion.between(start_s, start_s + WINDOW_S)
+                motion = window if is_readable(window) else motion
+            yield take, motion
+
+    return _examples(seen())
+
+
+def _examples(takes: Iterable[tuple[LabelledTake, RigidMotion]]) -> Examples:
+    """Return labelled takes as they are seen, described."""
     described, meant, performers = [], [], []
-    for i, take in enumerate(fourfold_takes(people=people, repeats=repeats, seed=seed)):
-        motion = smooth(take.doodle)
-        room_s = float(motion.time_s[-1] - motion.time_s[0]) - WINDOW_S
-        if i % 2 and room_s > 0.0:
-            start_s = float(motion.time_s[0]) + rng.uniform(0.0, room_s)
-            window = motion.between(start_s, start_s + WINDOW_S)
-            motion = window if is_readable(window) else motion
+    for take, motion in takes:
         described.append(describe(motion))
         meant.append([getattr(take.effort, axis) for axis in AXES])
         performers.append(take.player)
@@ -238,18 +244,34 @@ def _meant(where: str, axis: str, word: str) -> float:
     return values[word.lower()]
 
 
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What is read of one doodle.
+
+    Attributes
+    ----------
+    doodle : the one.
+    effort : of it as one movement; nothing where it is too short or too still.
+    state : words of the joint state of Time and Weight, and its chance; None as well where the
+        model knows none.
+    """
+
+    doodle: Doodle
+    effort: Effort
+    state: tuple[str, str, float] | None
+
+
 def recording_efforts(
     recording: Recording, model: EffortModel, own: OwnMeasure | None = None
-) -> Iterator[tuple[Doodle, RigidMotion | None, Effort]]:
-    """Yield each doodle of a recording with its motion and Effort; too short ones have none."""
+) -> Iterator[Reading]:
+    """Yield what is read of each doodle of a recording."""
     for doodle in recording.doodles:
-        try:
-            motion = smooth(doodle)
-        except DoodleError:
-            yield doodle, None, Effort()
-            continue
-        effort = effort_of(describe(motion), model, own) if is_readable(motion) else Effort()
-        yield doodle, motion, effort
+        motion = _readable_motion(doodle)
+        if motion is None:
+            yield Reading(doodle, Effort(), None)
+        else:
+            described = describe(motion)
+            yield Reading(doodle, effort_of(described, model, own), state_of(described, model, own))
 
 
 def performers_measure(recordings: Iterable[Recording]) -> OwnMeasure:
@@ -260,21 +282,23 @@ def performers_measure(recordings: Iterable[Recording]) -> OwnMeasure:
     LabanError
         If fewer than `laban.own.FEWEST_TAKES` doodles of them can be read.
     """
-    described = []
-    for recording in recordings:
-        for doodle in recording.doodles:
-            try:
-                motion = smooth(doodle)
-            except DoodleError:
-                continue
-            if is_readable(motion):
-                described.append(describe(motion))
-    measure = measure_of(np.array(described)) if described else None
+    each = [_readable_motion(doodle) for recording in recordings for doodle in recording.doodles]
+    motions = [motion for motion in each if motion is not None]
+    measure = own_measure(motions)
     if measure is None:
         raise LabanError(
-            f"performer: expected at least {FEWEST_TAKES} takes that move, got {len(described)}"
+            f"performer: expected at least {FEWEST_TAKES} takes that move, got {len(motions)}"
         )
     return measure
+
+
+def _readable_motion(doodle: Doodle) -> RigidMotion | None:
+    """Return a doodle's motion, or None where it is too short or too still to read."""
+    try:
+        motion = smooth(doodle)
+    except DoodleError:
+        return None
+    return motion if is_readable(motion) else None
 
 
 def report_lines(training: Training) -> list[str]:

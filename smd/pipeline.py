@@ -109,8 +109,9 @@ def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> 
 
     from laban import Effort
     from laban.description import describe
-    from laban.model import effort_of, is_readable
+    from laban.model import effort_of
     from laban.own import measure_of
+    from laban.stillness import is_readable
     from smd.score import Alternative, Phrase
 
     described = {i: describe(motion) for i, (_, motion) in enumerate(played) if is_readable(motion)}

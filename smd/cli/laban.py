@@ -50,7 +50,7 @@ def classify(
     mount: reading.Mount = None,
 ) -> None:
     """Read the Effort of recordings, each doodle taken as one movement."""
-    from laban import AXES, load_effort_model, read_state
+    from laban import AXES, load_effort_model
     from laban.model import confidence
     from smd.effort import performers_measure, recording_efforts
 
@@ -64,10 +64,10 @@ def classify(
         own = performers_measure(options.read(take) for take in takes)
 
     def one(_: int, file: Path) -> None:
-        for doodle, motion, effort in recording_efforts(options.read(file), reader, own):
-            values = {axis: getattr(effort, axis) for axis in AXES}
+        for read in recording_efforts(options.read(file), reader, own):
+            doodle, state = read.doodle, read.state
+            values = {axis: getattr(read.effort, axis) for axis in AXES}
             known = {axis: round(v, 3) for axis, v in values.items() if v is not None}
-            state = None if motion is None else read_state(motion, reader, own)
             start_s, end_s = round(doodle.time_s[0], 3), round(doodle.time_s[-1], 3)
             rows.append(
                 {

@@ -62,6 +62,7 @@ class Verification:
 
     def __post_init__(self) -> None:
         some = next((one for one in self.exemplars if one), None)
+        # An action without examples borrows some; they are never looked at.
         each = [one or some for one in self.exemplars] if some else []
         stacked = {
             "limit": self.limit,

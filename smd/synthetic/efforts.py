@@ -192,7 +192,8 @@ def simulated_take(
     action
         A name in `strokes.GESTURES`.
     effort
-        Time and Weight as meant; an axis that is None is not meant, as is 0.
+        As meant. Time or Weight that is None is played as 0; without Space the strokes are
+        straight, and without Flow nothing is held back or let go.
     player
         Who plays.
     rng
@@ -316,12 +317,9 @@ def _wandering(
     side = normalized(side - (side @ move) / (move @ move) * move)
     weave = normalized(np.cross(move, side))
     phase = np.clip(done, 0.0, 1.0)
-    bow = 4.0 * phase * (1.0 - phase) * SHAPING.bow_per_indirect * side
-    fade = 4.0 * phase * (1.0 - phase)
-    ripple = (
-        fade * np.sin(2.0 * np.pi * SHAPING.weaves * phase) * SHAPING.weave_per_indirect * weave
-    )
-    return np.asarray(indirect * float(np.linalg.norm(move)) * (bow + ripple))
+    weaving = SHAPING.weave_per_indirect * np.sin(2.0 * np.pi * SHAPING.weaves * phase)
+    way = 4.0 * phase * (1.0 - phase) * (SHAPING.bow_per_indirect * side + weaving * weave)
+    return np.asarray(indirect * float(np.linalg.norm(move)) * way)
 
 
 def _following(

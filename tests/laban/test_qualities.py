@@ -7,7 +7,7 @@ import pytest
 
 from laban.description import DESCRIPTION_NAMES, FAMILIES, describe
 from laban.qualities import QUALITIES, movement_qualities, spectral_arc_length
-from laban.trimming import without_still_ends
+from laban.stillness import without_still_ends
 
 NAMES = [quality.name for quality in QUALITIES]
 

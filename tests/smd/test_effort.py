@@ -147,11 +147,10 @@ def test_a_take_that_is_too_short_is_refused_by_file(played):
 
 def test_every_doodle_of_a_recording_is_read_and_a_short_one_has_no_effort():
     recording = Recording((line(device="left"), line(device="right", seconds=0.02)))
-    (left, _, moving), (right, motion, short) = recording_efforts(recording, load_effort_model())
-    assert motion is None
-    assert (left.device, right.device) == ("left", "right")
-    assert moving.time is not None
-    assert short == Effort()
+    moving, short = recording_efforts(recording, load_effort_model())
+    assert (moving.doodle.device, short.doodle.device) == ("left", "right")
+    assert moving.effort.time is not None
+    assert (short.effort, short.state) == (Effort(), None)
 
 
 def test_simulated_examples_label_all_axes():

@@ -1,9 +1,12 @@
-"""Trimming: a movement without the stillness before and after it."""
+"""Stillness: whether there is movement to read, and where it begins and ends."""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from laban.features import MIN_SAMPLES, SLOW_M_S
 from laban.motion import RigidMotion
 
 STILL_SHARE = 0.05
@@ -11,6 +14,21 @@ STILL_SHARE = 0.05
 
 STILL_M_S, STILL_RAD_S = 0.005, 0.05
 """Nor at or below these speeds, whatever the rest is like."""
+
+REST_RAD_S = 0.1
+"""A body that turns no faster and moves no faster than `SLOW_M_S` (RMS) is at rest."""
+
+
+def is_readable(motion: RigidMotion) -> bool:
+    """Return whether there is enough movement to read."""
+    return len(motion) >= MIN_SAMPLES and not is_still(motion)
+
+
+def is_still(motion: RigidMotion) -> bool:
+    """Return whether the body is at rest: RMS speed and angular speed at most a tremor's."""
+    speed = math.sqrt(float(np.sum(motion.velocity_m_s**2)) / len(motion))
+    turning = math.sqrt(float(np.sum(motion.angular_velocity_rad_s**2)) / len(motion))
+    return speed <= SLOW_M_S and turning <= REST_RAD_S
 
 
 def without_still_ends(motion: RigidMotion) -> RigidMotion:
