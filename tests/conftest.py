@@ -4,8 +4,14 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 SHARED_DATA = Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data"))
+
+
+# The same examples in every run: the suite says the same of the same code.
+settings.register_profile("same each time", derandomize=True)
+settings.load_profile("same each time")
 
 
 @pytest.fixture(scope="session")

@@ -106,4 +106,8 @@ def _numbers(name: str, device: str, poses: Any) -> FloatArray:
                 "numbers in timestamp, position x y z and rotation x y z",
                 shown(pose),
             ) from None
-    return np.array(rows, dtype=np.float64)
+    numbers = np.array(rows, dtype=np.float64)
+    infinite = np.isinf(numbers).any(axis=1)
+    if infinite.any():  # here, since an infinite angle would pass for one that is lost
+        raise fault(name, _place(device, int(np.argmax(infinite))), "finite numbers", "inf")
+    return numbers

@@ -160,6 +160,12 @@ def refused(path: Path, **options) -> str:
             json.dumps({"a": {"poses": [POSE]}}),
             "device 'a': expected at least two poses, found 1",
         ),
+        (
+            json.dumps({"a": {"poses": [POSE, POSE | {"timestamp": 20}]}}).replace(
+                '"z": 0}', '"z": 1e999}', 1
+            ),
+            "device 'a', pose 0: expected finite numbers, found inf",
+        ),
     ],
 )
 def test_a_wrong_content_is_named_with_its_place(tmp_path, content, message):
