@@ -14,7 +14,7 @@ import numpy as np
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.feet import FootShape
 from actions_library.authoring.humanoid import humanoid_skeleton
-from actions_library.authoring.posing import foot_shape
+from actions_library.authoring.limbs import foot_shape
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.geometry.arrays import FloatArray

@@ -8,11 +8,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from actions_library.authoring.curves import eased
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import quaternion_from_euler, rotate
 
 _STEP_S = 1e-4
 """Step of the one-sided differences that give a swing its first and last velocity."""
+
+FREEING_S = 0.2
+"""Time in which a foot that has left the ground comes under its leg's own keys, and back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +63,7 @@ class Plant:
     leave_pitch : of the foot when it leaves, rolling over the ball (°).
     roll : how long before leaving the heel begins to rise (s).
     on_ball : keys of rising onto the ball and turning on it while it stands; the first at pitch 0.
-    swing : the way through the air that led here.
+    swing : the way through the air that led here; None where the leg's own keys say it.
     """
 
     land: float
@@ -72,7 +76,7 @@ class Plant:
     leave_pitch: float = 0.0
     roll: float = 0.20
     on_ball: tuple[OnBall, ...] = ()
-    swing: tuple[Via, ...] = (Via(0.5, 0.06),)
+    swing: tuple[Via, ...] | None = (Via(0.5, 0.06),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,13 +90,17 @@ class FootShape:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FootPath:
-    """A foot over time, in the clip's world: ``(n, …)`` each."""
+    """A foot over time, in the clip's world: ``(n, …)`` each.
+
+    Where ``free`` is above 0, the leg's own keys have the foot to that share.
+    """
 
     ankle_m: FloatArray
     rotation_xyzw: FloatArray
     toes_up_rad: FloatArray
     sole_down: BoolArray
     toes_down: BoolArray
+    free: FloatArray
 
 
 def other_foot(plant: Plant) -> Plant:
@@ -133,6 +141,7 @@ def foot_path(
 
     row = np.empty((len(time_s), 6))
     sole, toes = np.zeros(len(time_s), bool), np.zeros(len(time_s), bool)
+    free = np.zeros(len(time_s))
     for plant in plants:
         on = (time_s >= plant.land - 1e-9) & (time_s <= plant.leave + 1e-9)
         row[on] = _standing(plant, shape, time_s[on])
@@ -145,9 +154,13 @@ def foot_path(
         ends = np.array([before.leave, after.land])
         leave = _standing(before, shape, ends[0] - np.array([_STEP_S, 0.0]))
         land = _standing(after, shape, ends[1] + np.array([0.0, _STEP_S]))
-        vias = [_via_row(via, before, after, shape, out) for via in after.swing]
+        swing = () if after.swing is None else after.swing
+        if after.swing is None:
+            edge_s = np.minimum(time_s[on] - ends[0], ends[1] - time_s[on])
+            free[on] = eased(edge_s / min(FREEING_S, 0.5 * (ends[1] - ends[0])))
+        vias = [_via_row(via, before, after, shape, out) for via in swing]
         spline = make_interp_spline(
-            [ends[0], *(ends[0] + via.at * (ends[1] - ends[0]) for via in after.swing), ends[1]],
+            [ends[0], *(ends[0] + via.at * (ends[1] - ends[0]) for via in swing), ends[1]],
             [leave[1], *vias, land[0]],
             k=3,
             bc_type=(
@@ -162,6 +175,7 @@ def foot_path(
         toes_up_rad=row[:, 5],
         sole_down=sole,
         toes_down=toes,
+        free=free,
     )
 
 

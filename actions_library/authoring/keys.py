@@ -64,6 +64,24 @@ class Arm:
 
 
 @dataclass(frozen=True, slots=True)
+class Hand:
+    """A hand that is put somewhere, whatever its arm's own key says.
+
+    Attributes
+    ----------
+    place : of the wrist in the clip's world (out, up, ahead; m).
+    fingers : direction in which they point (out, up, ahead), of any length.
+    palm : direction in which the palm faces.
+    hold : 1 when the hand is there, 0 when the arm's own key has it, mixed between.
+    """
+
+    place: Vector = (0.2, 1.0, 0.3)
+    fingers: Vector = (0.0, 0.0, 1.0)
+    palm: Vector = (0.0, -1.0, 0.0)
+    hold: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class Leg:
     """A leg that touches nothing: directions (out, up, ahead) turn with the hips.
 
@@ -92,6 +110,8 @@ class Key:
     head: Turn | None = None
     left_arm: Arm | None = None
     right_arm: Arm | None = None
+    left_hand: Hand | None = None
+    right_hand: Hand | None = None
     left_leg: Leg | None = None
     right_leg: Leg | None = None
 
@@ -121,6 +141,8 @@ def mirrored(key: Key) -> Key:
         head=other_way(key.head),
         left_arm=key.right_arm,
         right_arm=key.left_arm,
+        left_hand=key.right_hand,
+        right_hand=key.left_hand,
         left_leg=key.right_leg,
         right_leg=key.left_leg,
     )

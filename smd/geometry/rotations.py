@@ -135,6 +135,15 @@ def quaternion_from_euler(order: str, angles_rad: ArrayLike) -> FloatArray:
     return np.asarray(flat, dtype=np.float64).reshape(*angles.shape[:-1], 4)
 
 
+def quaternion_from_matrix(matrix: ArrayLike) -> FloatArray:
+    """Return unit quaternions ``(..., 4)`` of rotation matrices ``(..., 3, 3)``."""
+    from scipy.spatial.transform import Rotation
+
+    matrix = np.array(matrix, dtype=np.float64)
+    flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
+    return np.asarray(flat, dtype=np.float64).reshape(*matrix.shape[:-2], 4)
+
+
 def heading_rad(q_xyzw: ArrayLike) -> FloatArray:
     """Return the angle about +Y from +Z to the turned +Z, seen from above, in (-pi, pi].
 

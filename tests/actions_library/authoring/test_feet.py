@@ -13,7 +13,7 @@ from actions_library.authoring.feet import (
     repeated,
 )
 from actions_library.authoring.humanoid import humanoid_skeleton
-from actions_library.authoring.posing import foot_shape
+from actions_library.authoring.limbs import foot_shape
 from smd.geometry.rotations import rotate
 
 SHAPE = foot_shape(humanoid_skeleton(), "left")

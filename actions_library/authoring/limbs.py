@@ -1,0 +1,227 @@
+"""Arms and legs of the humanoid, posed by their keys, or by where hands and feet are put."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import numpy as np
+
+from actions_library.authoring.feet import FootPath, FootShape
+from actions_library.authoring.keys import Arm, Hand, Leg
+from actions_library.authoring.pose import Pose
+from smd.character.ik import Limb, limb_of, two_bone_ik
+from smd.character.skeleton import Skeleton
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import (
+    IDENTITY_XYZW,
+    inverse,
+    multiply,
+    normalized,
+    quaternion_about,
+    quaternion_from_euler,
+    quaternion_from_matrix,
+    rotate,
+    slerp,
+)
+
+LEG_SOFTNESS = 0.004
+"""Last part of a leg's reach that softens; short, since a foot that falls short slides."""
+
+ARM_SOFTNESS = 0.02
+"""The same of an arm: where a hand is put, it may fall a little short."""
+
+HEEL_BEHIND_ANKLE_M = 0.078
+
+WRIST_HEIGHT_M, HEEL_OF_HAND_M = 0.034, 0.012
+"""Of a flat hand: the wrist above the ground, and the heel of the hand behind it."""
+
+_FOREARM_TWIST_SHARE = 0.5
+
+Numbers = dict[str, FloatArray]
+
+
+def pose_arm(
+    pose: Pose,
+    side: str,
+    out: float,
+    arm_numbers: FloatArray,
+    hand_numbers: FloatArray | None,
+    palm: FootPath | None,
+) -> None:
+    """Pose a shoulder, an arm and its hand, above a chest that is posed.
+
+    Parameters
+    ----------
+    out
+        +1 for the left arm, -1 for the right one.
+    arm_numbers, hand_numbers
+        The curves of its `Arm` and `Hand` keys.
+    palm
+        Where the flat hand goes on the ground, which overrules both.
+    """
+    arm = _columns(Arm(), arm_numbers)
+    mirror = np.array([out, 1.0, 1.0])
+    chest = pose.rotation[:, pose.skeleton.index("upper_chest")]
+    frame = slerp(np.broadcast_to(IDENTITY_XYZW, chest.shape), chest, arm["follow"])
+    to = rotate(frame, normalized(arm["to"]) * mirror)
+    elbow = rotate(frame, normalized(arm["elbow"]) * mirror)
+    pose.turn(f"{side}_shoulder", _shoulder(rotate(inverse(chest), to) * mirror, arm, out))
+
+    upper, lower, hand = f"{side}_upper_arm", f"{side}_lower_arm", f"{side}_hand"
+    limb = limb_of(pose.skeleton, upper, lower, hand, [0.0, 0.0, -1.0])
+    base = pose.at(upper)
+    span = limb.span_m(np.radians(arm["bend"]))[:, None]
+    wrist, softness = base + to * span, 0.0
+    held = None if hand_numbers is None else _held(hand_numbers, out)
+    if palm is not None:
+        wrist, softness = palm.ankle_m, ARM_SOFTNESS
+    elif held is not None:
+        place, _, hold = held
+        wrist, softness = wrist + hold[:, None] * (place - wrist), ARM_SOFTNESS
+    upper_q, lower_q = two_bone_ik(limb, base, wrist, elbow, softness=softness)
+    pose.set(upper, upper_q)
+
+    along = normalized(pose.skeleton.rest_translation_m[pose.skeleton.index(hand)])
+    twist = out * np.radians(arm["twist"])
+    pose.set(lower, multiply(lower_q, quaternion_about(along, _FOREARM_TWIST_SHARE * twist)))
+    fold = np.array([0.0, 0.0, -out])
+    pose.turn(
+        hand,
+        multiply(
+            quaternion_about(along, (1.0 - _FOREARM_TWIST_SHARE) * twist),
+            quaternion_about(fold, np.radians(arm["flex"])),
+        ),
+    )
+    curl = np.radians(arm["curl"])
+    if palm is not None:
+        flat = _hand_rotation(np.array([[0.0, 0.0, 1.0]]), np.array([[0.0, -1.0, 0.0]]), out)
+        pose.set(hand, multiply(palm.rotation_xyzw, flat))
+        curl = -palm.toes_up_rad
+    elif held is not None:
+        _, turned, hold = held
+        own = pose.rotation[:, pose.skeleton.index(hand)]
+        pose.set(hand, slerp(own, turned, hold))
+    pose.turn(f"{side}_fingers", quaternion_about(fold, curl))
+    over_palm = quaternion_about([1.0, -out, 0.0], 0.35 * curl)
+    across = quaternion_about([1.0, out, 0.0], 0.40 * curl)
+    pose.turn(f"{side}_thumb", multiply(across, over_palm))
+
+
+def _held(numbers: FloatArray, out: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return where a hand is put, how it is turned, and how firmly: place, rotation, hold."""
+    hand = _columns(Hand(), numbers)
+    mirror = np.array([out, 1.0, 1.0])
+    turned = _hand_rotation(hand["fingers"] * mirror, hand["palm"] * mirror, out)
+    return hand["place"] * mirror, turned, hand["hold"]
+
+
+def _hand_rotation(fingers: FloatArray, palm: FloatArray, out: float) -> FloatArray:
+    """Return rotations in the world ``(n, 4)`` whose fingers point and palm faces as asked.
+
+    At rest the fingers point outward and down at 45°, and the palm faces the body.
+    """
+    half = np.sqrt(0.5)
+    rest = _axes(np.array([[out * half, -half, 0.0]]), np.array([[-out * half, -half, 0.0]]))
+    return quaternion_from_matrix(_axes(fingers, palm) @ np.swapaxes(rest, -1, -2))
+
+
+def _axes(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return right-handed axes ``(n, 3, 3)`` in columns; the second is made square to the first."""
+    a = normalized(first)
+    b = normalized(second - a * np.sum(a * second, axis=-1, keepdims=True))
+    return np.stack([a, b, np.cross(a, b)], axis=-1)
+
+
+def _shoulder(to: FloatArray, arm: Numbers, out: float) -> FloatArray:
+    """Return the collar bone's turn: it rises with a raised arm and goes along with a reach."""
+    raised = np.clip((to[:, 1] + 0.3) / 1.3, 0.0, 1.0)
+    lift = 24.0 * raised * raised * (3.0 - 2.0 * raised) + arm["shrug"]
+    straight = np.clip(1.0 - arm["bend"] / 150.0, 0.0, 1.0)
+    forward = 14.0 * to[:, 2] * straight
+    degrees = np.column_stack([-out * forward, np.zeros_like(lift), out * lift])
+    return quaternion_from_euler("YXZ", np.radians(degrees))
+
+
+def foot_shape(skeleton: Skeleton, side: str) -> FootShape:
+    """Return a foot's measures: the ball at the toes' joint, the heel on the ground."""
+    ankle_height = float(skeleton.world_from_bind[skeleton.index(f"{side}_foot"), 1, 3])
+    return FootShape(
+        ball=skeleton.rest_translation_m[skeleton.index(f"{side}_toes")],
+        heel=np.array([0.0, -ankle_height, -HEEL_BEHIND_ANKLE_M]),
+        ankle_height=ankle_height,
+    )
+
+
+def palm_shape(skeleton: Skeleton, side: str) -> FootShape:
+    """Return a flat hand's measures, as a foot's: it rolls over the knuckles."""
+    palm_m = float(np.linalg.norm(skeleton.rest_translation_m[skeleton.index(f"{side}_fingers")]))
+    return FootShape(
+        ball=np.array([0.0, -WRIST_HEIGHT_M + 0.012, palm_m]),
+        heel=np.array([0.0, -WRIST_HEIGHT_M, -HEEL_OF_HAND_M]),
+        ankle_height=WRIST_HEIGHT_M,
+    )
+
+
+def pose_leg(
+    pose: Pose, side: str, out: float, numbers: FloatArray | None, path: FootPath | None
+) -> None:
+    """Pose a leg below hips that are posed: by its keys, by its foot's path, or between both.
+
+    A knee points where foot and hips do, between them; in the air where its key says.
+    """
+    upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
+    limb = limb_of(pose.skeleton, upper, lower, foot, [0.0, 0.0, 1.0])
+    if path is None:
+        if numbers is None:
+            raise ValueError(f"{side} leg: expected keys or plants")
+        _free_leg(pose, side, out, numbers, limb)
+        return
+    free = np.zeros(len(path.free))
+    ankle, turned, toes = path.ankle_m, path.rotation_xyzw, -path.toes_up_rad
+    base = pose.at(upper)
+    left = np.broadcast_to([1.0, 0.0, 0.0], base.shape)
+    hips = pose.rotation[:, pose.skeleton.index("hips")]
+    axis = normalized(rotate(hips, left) + rotate(turned, left))
+    pole = np.cross(axis, base - ankle)
+    if path.free.any():
+        if numbers is None:
+            raise ValueError(f"{side} leg: expected keys for its way through the air")
+        free = path.free
+        _free_leg(pose, side, out, numbers, limb)
+        own = {joint: pose.skeleton.index(joint) for joint in (upper, lower, foot, f"{side}_toes")}
+        knee = pose.position[:, own[lower]] - 0.5 * (base + pose.position[:, own[foot]])
+        ankle = ankle + free[:, None] * (pose.position[:, own[foot]] - ankle)
+        turned = slerp(turned, pose.rotation[:, own[foot]], free)
+        pole = normalized(pole) + free[:, None] * (normalized(knee) - normalized(pole))
+        toes = (1.0 - free) * toes + free * 0.3 * np.radians(_columns(Leg(), numbers)["point"])
+    upper_q, lower_q = two_bone_ik(limb, base, ankle, pole, softness=LEG_SOFTNESS)
+    pose.set(upper, upper_q)
+    pose.set(lower, lower_q)
+    pose.set(foot, turned)
+    pose.turn(f"{side}_toes", quaternion_about([1.0, 0.0, 0.0], toes))
+
+
+def _free_leg(pose: Pose, side: str, out: float, numbers: FloatArray, limb: Limb) -> None:
+    leg = _columns(Leg(), numbers)
+    mirror = np.array([out, 1.0, 1.0])
+    hips = pose.rotation[:, pose.skeleton.index("hips")]
+    upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
+    base = pose.at(upper)
+    to = rotate(hips, normalized(leg["to"]) * mirror)
+    knee = rotate(hips, normalized(leg["knee"]) * mirror)
+    span = limb.span_m(np.radians(leg["bend"]))[:, None]
+    upper_q, lower_q = two_bone_ik(limb, base, base + to * span, knee)
+    pose.set(upper, upper_q)
+    pose.set(lower, lower_q)
+    pose.turn(foot, quaternion_about([1.0, 0.0, 0.0], np.radians(leg["point"])))
+    pose.turn(f"{side}_toes", quaternion_about([1.0, 0.0, 0.0], np.radians(0.3 * leg["point"])))
+
+
+def _columns(part: Arm | Hand | Leg, numbers: FloatArray) -> Numbers:
+    """Return a part's numbers ``(n, c)`` by its fields' names; directions have three columns."""
+    widths = {field.name: np.size(getattr(part, field.name)) for field in fields(part)}
+    ends = np.cumsum(list(widths.values()))
+    return {
+        name: numbers[:, end - width : end] if width > 1 else numbers[:, end - 1]
+        for (name, width), end in zip(widths.items(), ends, strict=True)
+    }
