@@ -29,6 +29,7 @@ from smd.geometry.rotations import (
 TOE_LENGTH_M = 0.088
 FOOT_HALF_WIDTH_M = 0.040
 SLOW_M_S = 0.10
+SEATED_M = 0.30
 SIDES = ("left", "right")
 SEGMENTS = (
     ("hips", "upper_chest", 0.497, 0.60),
@@ -162,17 +163,22 @@ def centre_of_mass(clip: Clip, position: FloatArray) -> FloatArray:
 
 
 def off_balance_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> float:
-    """Return how far the centre of mass leaves the planted soles while the body is slow."""
+    """Return how far the centre of mass leaves the planted soles while the body is slow.
+
+    A body whose hips are lower than `SEATED_M` rests on more than its soles, and is left out.
+    """
     from scipy.spatial import ConvexHull
 
     centre = centre_of_mass(clip, position)
     speed = np.linalg.norm(np.gradient(centre, 1.0 / clip.rate_hz, axis=0), axis=-1)
     worst = 0.0
-    for frame in np.flatnonzero(speed < SLOW_M_S):
+    standing = position[:, clip.skeleton.index("hips"), 1] > SEATED_M
+    for frame in np.flatnonzero((speed < SLOW_M_S) & standing):
         soles = [
             position[frame, j] + rotate(rotation[frame, j], local)
             for joint, local in _sole_parts(clip)
-            if clip.contacts[frame, clip.contact_joints.index(joint)]
+            if joint in clip.contact_joints
+            and clip.contacts[frame, clip.contact_joints.index(joint)]
             for j in [clip.skeleton.index(joint)]
         ]
         if soles:

@@ -15,7 +15,7 @@ from smd.geometry.rotations import quaternion_from_euler, rotate
 _STEP_S = 1e-4
 """Step of the one-sided differences that give a swing its first and last velocity."""
 
-FREEING_S = 0.2
+FREEING_S = 0.12
 """Time in which a foot that has left the ground comes under its leg's own keys, and back."""
 
 
@@ -39,6 +39,10 @@ class Via:
     out: float = 0.0
     pitch: float = 0.0
     toes: float = 0.0
+
+
+_FREE_SWING = (Via(0.25, 0.30, pitch=30.0), Via(0.75, 0.30, pitch=10.0))
+"""Between its plants, where a foot's way is not seen: high, so that it comes from above."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +122,7 @@ def repeated(plants: Sequence[Plant], period_s: float, *, left: float, ahead: fl
             leave=plant.leave + k * period_s,
             left=plant.left + k * left,
             ahead=plant.ahead + k * ahead,
+            on_ball=tuple(replace(key, at=key.at + k * period_s) for key in plant.on_ball),
         )
         for k in range(-2, 3)
         for plant in plants
@@ -154,7 +159,7 @@ def foot_path(
         ends = np.array([before.leave, after.land])
         leave = _standing(before, shape, ends[0] - np.array([_STEP_S, 0.0]))
         land = _standing(after, shape, ends[1] + np.array([0.0, _STEP_S]))
-        swing = () if after.swing is None else after.swing
+        swing = _FREE_SWING if after.swing is None else after.swing
         if after.swing is None:
             edge_s = np.minimum(time_s[on] - ends[0], ends[1] - time_s[on])
             free[on] = eased(edge_s / min(FREEING_S, 0.5 * (ends[1] - ends[0])))

@@ -94,8 +94,7 @@ def pose_arm(
     )
     curl = np.radians(arm["curl"])
     if palm is not None:
-        flat = _hand_rotation(np.array([[0.0, 0.0, 1.0]]), np.array([[0.0, -1.0, 0.0]]), out)
-        pose.set(hand, multiply(palm.rotation_xyzw, flat))
+        pose.set(hand, multiply(palm.rotation_xyzw, _flat_hand(out)))
         curl = -palm.toes_up_rad
     elif held is not None:
         _, turned, hold = held
@@ -154,12 +153,18 @@ def foot_shape(skeleton: Skeleton, side: str) -> FootShape:
 
 def palm_shape(skeleton: Skeleton, side: str) -> FootShape:
     """Return a flat hand's measures, as a foot's: it rolls over the knuckles."""
-    palm_m = float(np.linalg.norm(skeleton.rest_translation_m[skeleton.index(f"{side}_fingers")]))
+    out = 1.0 if side == "left" else -1.0
+    knuckles = skeleton.rest_translation_m[skeleton.index(f"{side}_fingers")]
     return FootShape(
-        ball=np.array([0.0, -WRIST_HEIGHT_M + 0.012, palm_m]),
+        ball=rotate(_flat_hand(out)[0], knuckles),
         heel=np.array([0.0, -WRIST_HEIGHT_M, -HEEL_OF_HAND_M]),
         ankle_height=WRIST_HEIGHT_M,
     )
+
+
+def _flat_hand(out: float) -> FloatArray:
+    """Return the rotation ``(1, 4)`` of a hand whose fingers point ahead, the palm down."""
+    return _hand_rotation(np.array([[0.0, 0.0, 1.0]]), np.array([[0.0, -1.0, 0.0]]), out)
 
 
 def pose_leg(

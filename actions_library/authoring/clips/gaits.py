@@ -126,6 +126,104 @@ def run(skeleton: Skeleton) -> Clip:
     return _travelling(skeleton, "run", duration, both_sides(half), step, ahead=stride)
 
 
+def sneak(skeleton: Skeleton) -> Clip:
+    """Two long, low steps on the toes, knees lifted high, hands held before the chest."""
+    duration, stride = 108 / 60, 1.16
+    paw = Arm(to=(0.06, -0.62, 0.9), bend=78.0, elbow=(0.9, -0.3, -0.7), flex=62.0, curl=34.0)
+    half = [
+        Key(  # the left toes touch, the weight still behind
+            0.0,
+            place=Place(left=-0.020, up=-0.175),
+            hips=Turn(yaw=-10.0, lean=22.0, tilt=-2.0),
+            chest=Turn(yaw=9.0, lean=40.0, tilt=3.0),
+            head=Turn(yaw=14.0, lean=6.0, tilt=3.0),
+            left_arm=replace(paw, to=(0.10, -0.66, 0.66)),
+            right_arm=replace(paw, to=(0.02, -0.45, 1.0), bend=66.0),
+        ),
+        Key(  # and sinks onto it
+            0.14,
+            place=Place(left=0.030, up=-0.215),
+            hips=Turn(yaw=-6.0, lean=25.0, tilt=4.0),
+            chest=Turn(yaw=7.0, lean=44.0, tilt=-3.0),
+            head=Turn(yaw=18.0, lean=9.0, tilt=-3.0),
+        ),
+        Key(  # rises, the other knee coming up
+            0.33,
+            place=Place(left=0.055, up=-0.135),
+            hips=Turn(yaw=2.0, lean=17.0, tilt=5.0),
+            chest=Turn(yaw=0.0, lean=32.0, tilt=-4.0),
+            head=Turn(yaw=4.0, lean=4.0, tilt=-1.0),
+            left_arm=replace(paw, to=(0.06, -0.50, 0.9), bend=92.0),
+            right_arm=replace(paw, to=(0.06, -0.50, 0.9), bend=92.0),
+        ),
+    ]
+    step = Plant(
+        land=0.0,
+        leave=0.60 * duration,
+        left=0.085,
+        ahead=0.30,
+        yaw=12.0,
+        land_pitch=34.0,
+        flat=0.24,
+        leave_pitch=52.0,
+        roll=0.34,
+        swing=(
+            Via(0.28, 0.24, along=0.22, pitch=58.0, toes=10.0),
+            Via(0.58, 0.34, along=0.60, pitch=34.0),
+            Via(0.84, 0.14, along=0.95, pitch=30.0),
+        ),
+    )
+    return _travelling(skeleton, "sneak", duration, both_sides(half), step, ahead=stride)
+
+
+def walk_backward(skeleton: Skeleton) -> Clip:
+    """Two steps back: toes first, rolling onto the heel, a look over the shoulder."""
+    duration, stride = 72 / 60, -0.92
+    half = [
+        Key(  # the left toes land behind
+            0.0,
+            place=Place(left=-0.006, up=-0.046),
+            hips=Turn(yaw=8.0, lean=4.0, tilt=0.5),
+            chest=Turn(yaw=4.0, lean=6.0, tilt=0.0),
+            left_arm=Arm(to=(0.24, -1.0, 0.34), bend=36.0),
+            right_arm=Arm(to=(0.30, -1.0, -0.14), bend=24.0),
+        ),
+        Key(
+            0.13,
+            place=Place(left=0.016, up=-0.050),
+            hips=Turn(yaw=5.0, lean=5.0, tilt=3.5),
+            chest=Turn(yaw=6.0, lean=7.0, tilt=-1.5),
+        ),
+        Key(
+            0.30,
+            place=Place(left=0.030, up=-0.024),
+            hips=Turn(yaw=-1.0, lean=4.0, tilt=2.0),
+            chest=Turn(yaw=9.0, lean=5.5, tilt=-1.0),
+        ),
+    ]
+    looking = (
+        Key(0.0, head=Turn(yaw=58.0, lean=7.0, tilt=-2.0)),
+        Key(0.5, head=Turn(yaw=66.0, lean=5.0, tilt=2.0)),
+    )
+    step = Plant(
+        land=0.0,
+        leave=0.61 * duration,
+        left=0.085,
+        ahead=-0.36,
+        yaw=8.0,
+        land_pitch=30.0,
+        flat=0.20,
+        leave_pitch=-14.0,
+        roll=0.20,
+        swing=(
+            Via(0.30, 0.075, along=0.28, pitch=4.0),
+            Via(0.66, 0.125, along=0.74, pitch=30.0),
+        ),
+    )
+    keys = (*both_sides(half), *looking)
+    return _travelling(skeleton, "walk_backward", duration, keys, step, ahead=stride)
+
+
 def _travelling(
     skeleton: Skeleton,
     name: str,

@@ -65,3 +65,101 @@ def bow(skeleton: Skeleton) -> Clip:
         right_foot=[RIGHT_STANCE],
         stage_ends_s=(0.0, 0.40, 1.10, 1.48, duration),
     )
+
+
+def nod(skeleton: Skeleton) -> Clip:
+    """Return a nod: the head down and up, twice, the chest with it a little."""
+    duration = 1.70
+    keys = [
+        STAND,
+        Key(  # up first
+            0.24,
+            chest=Turn(yaw=1.5, lean=-1.5, tilt=-1.0),
+            head=Turn(yaw=0.0, lean=-9.0),
+        ),
+        Key(
+            0.48,
+            place=Place(left=0.012, up=-0.012, ahead=-0.004),
+            hips=Turn(yaw=-2.0, lean=3.5, tilt=1.5),
+            chest=Turn(yaw=1.5, lean=5.5, tilt=-1.0),
+            head=Turn(yaw=0.0, lean=34.0),
+        ),
+        Key(
+            0.74,
+            hips=Turn(yaw=-2.0, lean=2.0, tilt=1.5),
+            chest=Turn(yaw=1.5, lean=1.0, tilt=-1.0),
+            head=Turn(yaw=0.0, lean=-3.0),
+        ),
+        Key(
+            1.00,
+            place=Place(left=0.012, up=-0.012, ahead=-0.003),
+            hips=Turn(yaw=-2.0, lean=3.2, tilt=1.5),
+            chest=Turn(yaw=1.5, lean=4.5, tilt=-1.0),
+            head=Turn(yaw=0.0, lean=29.0),
+        ),
+        Key(
+            1.34,
+            chest=Turn(yaw=1.5, lean=0.2, tilt=-1.0),
+            head=Turn(yaw=0.0, lean=1.0),
+        ),
+        at(duration, STAND),
+    ]
+    return make_clip(
+        skeleton,
+        "nod",
+        keys,
+        standing_still(duration),
+        left_foot=[LEFT_STANCE],
+        right_foot=[RIGHT_STANCE],
+        stage_ends_s=(0.0, 0.24, 0.48, 1.34, duration),
+    )
+
+
+def wave(skeleton: Skeleton) -> Clip:
+    """Wave with the right hand: raised beside the head, from side to side, three times."""
+    duration, beat = 2.60, 0.21
+    up = Arm(
+        to=(0.62, 0.55, 0.42), bend=78.0, elbow=(1.0, -0.7, -0.1), twist=-62.0, flex=0.0, curl=8.0
+    )
+    inward = replace(up, to=(0.30, 0.75, 0.42), bend=88.0, flex=-4.0)
+    outward = replace(up, to=(0.95, 0.62, 0.36), bend=52.0, flex=6.0)
+    first = 0.62
+    waving = [
+        Key(first + i * beat, right_arm=(outward, inward)[i % 2], chest=chest)
+        for i, chest in enumerate([Turn(yaw=-3.0, tilt=3.0), Turn(yaw=-1.0, tilt=0.5)] * 3)
+    ]
+    keys = [
+        STAND,
+        Key(  # the weight goes to the left leg
+            0.22,
+            place=Place(left=0.030, up=-0.012),
+            hips=Turn(yaw=-3.0, lean=2.0, tilt=3.0),
+            head=Turn(lean=3.0),
+            right_arm=Arm(to=(0.30, -0.80, 0.40), bend=50.0),
+        ),
+        Key(
+            0.60,
+            place=Place(left=0.036, up=-0.013),
+            hips=Turn(yaw=-4.0, lean=1.5, tilt=3.6),
+            head=Turn(yaw=-2.0, lean=0.0, tilt=4.0),
+            left_arm=Arm(to=(0.20, -1.0, 0.03), bend=16.0),
+        ),
+        *waving,
+        Key(
+            first + 5 * beat,
+            place=Place(left=0.034, up=-0.012),
+            hips=Turn(yaw=-4.0, lean=1.5, tilt=3.4),
+            head=Turn(yaw=-2.0, lean=0.0, tilt=3.0),
+        ),
+        Key(2.12, right_arm=Arm(to=(0.30, -0.95, 0.34), bend=38.0)),
+        at(duration, STAND),
+    ]
+    return make_clip(
+        skeleton,
+        "wave",
+        keys,
+        standing_still(duration),
+        left_foot=[LEFT_STANCE],
+        right_foot=[RIGHT_STANCE],
+        stage_ends_s=(0.22, first, first + 5 * beat, first + 5 * beat, duration),
+    )

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from actions_library.authoring.feet import Via
-from actions_library.authoring.keys import Arm, Key, Place, Turn, at, carried
+from actions_library.authoring.feet import Plant, Via, repeated
+from actions_library.authoring.keys import Arm, Key, Leg, Place, Turn, at, carried
 from actions_library.authoring.posing import RATE_HZ, make_clip
-from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, moved_in_one_go
+from actions_library.authoring.stance import (
+    LEFT_STANCE,
+    RIGHT_STANCE,
+    STAND,
+    moved_in_one_go,
+    standing_still,
+)
 from smd.character.clip import Clip
 from smd.character.skeleton import Skeleton
 
@@ -91,7 +97,7 @@ def jump(skeleton: Skeleton) -> Clip:
             right_arm=Arm(to=(0.20, -1.0, 0.04), bend=18.0),
         ),
         at(duration, carried(STAND, ahead=far)),
-        *_ballistic(off, take_off, landed, touch_down),
+        *ballistic(off, take_off, landed, touch_down),
     ]
     left, right = (
         [
@@ -121,7 +127,197 @@ def jump(skeleton: Skeleton) -> Clip:
     )
 
 
-def _ballistic(off_s: float, off: Place, landed_s: float, landed: Place) -> list[Key]:
+def hop(skeleton: Skeleton) -> Clip:
+    """Hop on the left leg, again and again, the right one drawn up."""
+    duration, off, landed = 36 / 60, 10 / 60, 29 / 60
+    take_off, touch_down = Place(left=0.085, up=-0.004), Place(left=0.085, up=-0.030)
+    wide = Arm(to=(0.85, -0.62, 0.30), bend=42.0, elbow=(0.5, -0.6, -0.8), curl=30.0)
+    flung = Arm(to=(0.95, -0.12, 0.26), bend=36.0, elbow=(0.4, -0.8, -0.6), curl=24.0)
+    drawn = Leg(to=(0.10, -0.86, -0.26), bend=92.0, knee=(0.2, -0.2, 1.0), point=28.0)
+    keys = [
+        Key(
+            0.0,
+            place=Place(left=0.085, up=-0.100, ahead=-0.004),
+            hips=Turn(yaw=-3.0, lean=9.0, tilt=4.0),
+            chest=Turn(yaw=2.0, lean=14.0, tilt=-2.0),
+            head=Turn(lean=8.0, tilt=0.0),
+            left_arm=wide,
+            right_arm=wide,
+            right_leg=drawn,
+        ),
+        Key(
+            off / duration,
+            place=take_off,
+            hips=Turn(yaw=-1.0, lean=4.0, tilt=4.0),
+            chest=Turn(yaw=1.0, lean=4.0, tilt=-4.0),
+            head=Turn(lean=3.0, tilt=0.0),
+            left_arm=flung,
+            right_arm=flung,
+        ),
+        Key(0.53, right_leg=replace(drawn, to=(0.12, -0.80, -0.14), bend=100.0)),
+        Key(
+            landed / duration,
+            place=touch_down,
+            hips=Turn(yaw=-2.0, lean=6.0, tilt=4.0),
+            chest=Turn(yaw=1.0, lean=8.0, tilt=-3.0),
+            head=Turn(lean=6.0, tilt=0.0),
+        ),
+        *(at(key.at / duration, key) for key in ballistic(off, take_off, landed, touch_down)),
+    ]
+    stand = Plant(
+        land=landed - duration,
+        leave=off,
+        left=0.085,
+        ahead=0.0,
+        yaw=6.0,
+        land_pitch=24.0,
+        flat=0.07,
+        leave_pitch=46.0,
+        roll=0.10,
+        swing=(Via(0.5, 0.235, pitch=38.0),),
+    )
+    return make_clip(
+        skeleton,
+        "hop",
+        keys,
+        standing_still(duration),
+        left_foot=repeated([stand], duration, left=0.0, ahead=0.0),
+        stage_ends_s=(0.0, 0.0, duration, duration, duration),
+        cyclic=True,
+    )
+
+
+def leap(skeleton: Skeleton) -> Clip:
+    """Leap as a dancer does: a step, off the left foot, split in the air, down on the right."""
+    duration, far = 2.20, 2.30
+    stepped, off, landed, closed = 0.34, 0.74, 1.28, 1.80
+    take_off = Place(left=0.015, up=-0.020, ahead=0.62)
+    touch_down = Place(left=-0.020, up=-0.085, ahead=far - 0.22)
+    ahead_leg = Leg(to=(0.05, -0.42, 1.0), bend=14.0, point=52.0)
+    behind_leg = Leg(to=(0.06, -0.50, -0.95), bend=22.0, knee=(0.25, -0.4, 0.6), point=58.0)
+    keys = [
+        STAND,
+        Key(
+            0.20,
+            place=Place(left=-0.030, up=-0.030, ahead=0.02),
+            hips=Turn(yaw=4.0, lean=3.0),
+            chest=Turn(yaw=-3.0, lean=2.0),
+            head=Turn(lean=4.0),
+            left_arm=Arm(to=(0.30, -1.0, -0.20), bend=20.0),
+            right_arm=Arm(to=(0.30, -1.0, 0.20), bend=24.0),
+        ),
+        Key(  # deep on the left leg
+            0.52,
+            place=Place(left=0.030, up=-0.165, ahead=0.34),
+            hips=Turn(yaw=-6.0, lean=16.0, tilt=1.0),
+            chest=Turn(yaw=8.0, lean=18.0, tilt=0.0),
+            head=Turn(lean=6.0),
+            left_arm=Arm(to=(0.50, -0.75, -0.60), bend=18.0),
+            right_arm=Arm(to=(0.60, -0.80, -0.40), bend=18.0),
+            left_leg=behind_leg,
+            right_leg=replace(ahead_leg, to=(0.02, -0.85, -0.42), bend=104.0, point=4.0),
+        ),
+        Key(
+            off,
+            place=take_off,
+            hips=Turn(yaw=-12.0, lean=8.0),
+            chest=Turn(yaw=4.0, lean=5.0),
+            head=Turn(lean=0.0),
+            left_leg=behind_leg,
+            right_leg=replace(ahead_leg, to=(0.02, -0.60, 0.9), bend=76.0, point=4.0),
+        ),
+        Key(  # split
+            1.00,
+            hips=Turn(yaw=-16.0, lean=4.0),
+            chest=Turn(yaw=6.0, lean=4.0),
+            head=Turn(lean=-3.0),
+            left_arm=Arm(to=(0.50, 0.55, 0.85), bend=12.0, elbow=(0.7, -0.7, -0.2), curl=14.0),
+            right_arm=Arm(to=(1.0, 0.32, -0.10), bend=12.0, elbow=(0.1, -0.9, -0.6), curl=14.0),
+            left_leg=behind_leg,
+            right_leg=ahead_leg,
+        ),
+        Key(
+            landed,
+            place=touch_down,
+            hips=Turn(yaw=-10.0, lean=10.0, tilt=-2.0),
+            chest=Turn(yaw=4.0, lean=14.0, tilt=1.0),
+            head=Turn(lean=6.0),
+            left_arm=Arm(to=(0.70, -0.10, 0.70), bend=22.0, curl=20.0),
+            right_arm=Arm(to=(0.95, -0.10, 0.05), bend=22.0, curl=20.0),
+            left_leg=replace(behind_leg, to=(0.05, -0.8, -0.55), bend=46.0),
+            right_leg=replace(ahead_leg, to=(0.02, -0.9, 0.42), bend=12.0, point=30.0),
+        ),
+        Key(  # absorbed, over the right leg
+            1.46,
+            place=Place(left=-0.062, up=-0.190, ahead=far - 0.05),
+            hips=Turn(yaw=-4.0, lean=20.0, tilt=-4.0),
+            chest=Turn(yaw=2.0, lean=24.0, tilt=3.0),
+            head=Turn(lean=12.0),
+            left_arm=Arm(to=(0.60, -0.80, 0.30), bend=26.0),
+            right_arm=Arm(to=(0.60, -0.75, 0.30), bend=26.0),
+            left_leg=replace(behind_leg, to=(0.04, -0.90, -0.28), bend=92.0, point=30.0),
+        ),
+        Key(
+            closed,
+            place=Place(left=-0.050, up=-0.034, ahead=far - 0.01),
+            hips=Turn(yaw=-2.0, lean=6.0, tilt=-2.0),
+            chest=Turn(yaw=1.5, lean=5.0, tilt=1.0),
+            head=Turn(lean=5.0),
+            left_arm=Arm(to=(0.24, -1.0, 0.04), bend=17.0),
+            right_arm=Arm(to=(0.24, -1.0, 0.08), bend=20.0),
+        ),
+        at(duration, carried(STAND, ahead=far)),
+        *ballistic(off, take_off, landed, touch_down),
+    ]
+    left = [
+        replace(LEFT_STANCE, leave=0.16, leave_pitch=24.0, roll=0.12),
+        replace(
+            LEFT_STANCE,
+            land=stepped,
+            leave=off,
+            left=0.06,
+            ahead=0.46,
+            yaw=2.0,
+            land_pitch=-14.0,
+            flat=0.08,
+            leave_pitch=62.0,
+            roll=0.20,
+            swing=(Via(0.45, 0.10, pitch=16.0),),
+        ),
+        replace(
+            LEFT_STANCE,
+            land=closed,
+            ahead=LEFT_STANCE.ahead + far,
+            land_pitch=10.0,
+            flat=0.09,
+            swing=None,
+        ),
+    ]
+    right = [
+        replace(RIGHT_STANCE, leave=0.54, leave_pitch=50.0, roll=0.24),
+        replace(
+            RIGHT_STANCE,
+            land=landed,
+            left=-0.075,
+            ahead=RIGHT_STANCE.ahead + far,
+            yaw=-6.0,
+            land_pitch=22.0,
+            flat=0.08,
+            swing=None,
+        ),
+    ]
+    return make_clip(
+        skeleton,
+        "leap",
+        keys,
+        moved_in_one_go(duration, stepped, landed, ahead=far),
+        left_foot=left,
+        right_foot=right,
+        stage_ends_s=(0.20, 0.52, landed, 1.46, duration),
+    )
+
+
+def ballistic(off_s: float, off: Place, landed_s: float, landed: Place) -> list[Key]:
     """Return keys of the hips, frame by frame, on the parabola that joins take-off and landing."""
     gravity_m_s2, flight_s = 9.81, landed_s - off_s
     count = round(flight_s * RATE_HZ)

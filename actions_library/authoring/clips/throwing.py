@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Via
-from actions_library.authoring.keys import Arm, Key, Place, Turn, at
+from actions_library.authoring.keys import Arm, Hand, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, standing_still
 from smd.character.clip import Clip
@@ -166,4 +166,84 @@ def throw(skeleton: Skeleton) -> Clip:
         left_foot=left,
         right_foot=right,
         stage_ends_s=(0.28, 0.66, 1.03, 1.24, duration),
+    )
+
+
+def pick_up(skeleton: Skeleton) -> Clip:
+    """Bend the knees, take something from the ground with the right hand, and lift it."""
+    duration = 2.90
+    arm = Arm(to=(0.02, -0.9, 0.7), bend=30.0, elbow=(0.9, 0.1, -1.0), curl=20.0)
+    held = replace(arm, to=(0.05, -0.62, 0.75), bend=84.0, curl=95.0)
+    on_knee = Arm(to=(0.20, -0.80, 0.75), bend=44.0, elbow=(1.0, 0.0, -0.8), curl=25.0)
+    grasp = Hand((0.06, 0.190, 0.29), fingers=(-0.05, -0.9, 0.5), palm=(-0.6, -0.35, -0.6))
+    keys = [
+        STAND,
+        Key(  # looks down at it
+            0.34,
+            place=Place(left=0.012, up=-0.020, ahead=0.005),
+            hips=Turn(lean=4.0),
+            chest=Turn(lean=6.0),
+            head=Turn(yaw=-3.0, lean=32.0),
+            right_hand=replace(grasp, place=(0.12, 0.75, 0.32), hold=0.0),
+        ),
+        Key(0.58, right_hand=replace(grasp, place=(0.12, 0.60, 0.34), hold=0.1)),
+        Key(
+            0.80,
+            place=Place(left=0.0, up=-0.300, ahead=-0.055),
+            hips=Turn(yaw=4.0, lean=38.0),
+            chest=Turn(yaw=10.0, lean=52.0, tilt=3.0),
+            head=Turn(yaw=-2.0, lean=60.0),
+            left_arm=on_knee,
+            right_arm=arm,
+            right_hand=replace(grasp, place=(0.08, 0.40, 0.38), hold=0.9),
+        ),
+        Key(  # there
+            1.12,
+            place=Place(left=0.0, up=-0.460, ahead=-0.055),
+            hips=Turn(yaw=6.0, lean=48.0),
+            chest=Turn(yaw=14.0, lean=76.0, tilt=4.0),
+            head=Turn(yaw=-2.0, lean=66.0),
+            left_arm=on_knee,
+            right_arm=arm,
+            right_hand=grasp,
+        ),
+        Key(  # the fingers close
+            1.36,
+            place=Place(left=0.0, up=-0.462, ahead=-0.055),
+            hips=Turn(yaw=6.0, lean=48.0),
+            chest=Turn(yaw=14.0, lean=76.0, tilt=4.0),
+            head=Turn(yaw=-2.0, lean=66.0),
+            right_arm=replace(arm, curl=95.0),
+            right_hand=grasp,
+        ),
+        Key(1.62, right_hand=replace(grasp, place=(0.08, 0.44, 0.37), hold=0.9)),
+        Key(  # lifted
+            2.02,
+            place=Place(left=0.006, up=-0.045, ahead=-0.005),
+            hips=Turn(yaw=-1.0, lean=8.0),
+            chest=Turn(yaw=2.0, lean=9.0),
+            head=Turn(yaw=-3.0, lean=24.0),
+            left_arm=Arm(to=(0.20, -1.0, 0.12), bend=22.0),
+            right_arm=held,
+            right_hand=replace(grasp, place=(0.14, 1.02, 0.34), hold=0.0),
+        ),
+        Key(
+            2.36,
+            place=Place(left=0.010, up=-0.012, ahead=0.0),
+            hips=Turn(yaw=-2.0, lean=2.0),
+            chest=Turn(yaw=1.0, lean=1.0),
+            head=Turn(yaw=-2.0, lean=14.0),
+            left_arm=Arm(to=(0.18, -1.0, 0.06), bend=16.0),
+            right_arm=replace(held, to=(0.08, -0.70, 0.68), bend=80.0),
+        ),
+        at(duration, STAND),
+    ]
+    return make_clip(
+        skeleton,
+        "pick_up",
+        keys,
+        standing_still(duration),
+        left_foot=[LEFT_STANCE],
+        right_foot=[RIGHT_STANCE],
+        stage_ends_s=(0.0, 0.34, 1.12, 1.36, duration),
     )

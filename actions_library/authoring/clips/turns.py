@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot
-from actions_library.authoring.keys import Arm, Key, Place, Turn, at, carried, mirrored
+from actions_library.authoring.keys import Arm, Key, Leg, Place, Turn, at, carried, mirrored
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, moved_in_one_go
 from smd.character.clip import Clip
@@ -118,3 +118,88 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
 def _around(plant: Plant) -> Plant:
     """Return the stance after a quarter turn to the left."""
     return replace(plant, left=plant.ahead, ahead=-plant.left, yaw=plant.yaw + 90.0)
+
+
+def spin(skeleton: Skeleton) -> Clip:
+    """Return a whole turn to the left on the ball of the left foot, the right one at its knee."""
+    duration, off, landed = 1.90, 0.52, 1.34
+    gathered = Arm(to=(-0.10, -0.55, 0.80), bend=84.0, elbow=(1.0, -0.2, 0.1), curl=30.0)
+    opened = Arm(to=(1.0, -0.22, 0.35), bend=24.0, elbow=(0.2, -0.8, -0.6), curl=18.0)
+    drawn = Leg(to=(0.30, -0.84, 0.14), bend=96.0, knee=(0.8, 0.0, 1.0), point=56.0)
+    keys = [
+        STAND,
+        Key(  # wound up to the right, both knees bent
+            0.36,
+            place=Place(left=0.030, up=-0.110, ahead=0.010),
+            hips=Turn(yaw=-16.0, lean=8.0),
+            chest=Turn(yaw=-42.0, lean=8.0),
+            head=Turn(yaw=-8.0, lean=6.0),
+            left_arm=Arm(to=(0.10, -0.50, 1.0), bend=40.0, elbow=(0.9, -0.5, -0.2)),
+            right_arm=replace(opened, to=(1.0, -0.30, -0.25)),
+            right_leg=drawn,
+        ),
+        Key(  # off
+            off,
+            place=Place(left=0.108, up=-0.030, ahead=0.090),
+            hips=Turn(yaw=20.0, lean=3.0, tilt=1.0),
+            chest=Turn(yaw=24.0, lean=3.0),
+            head=Turn(yaw=0.0, lean=4.0),
+            left_arm=opened,
+            right_arm=opened,
+        ),
+        Key(0.74, left_arm=gathered, right_arm=gathered),
+        Key(  # the head stays behind, then whips round
+            0.80,
+            place=Place(left=0.122, up=0.036, ahead=0.128),
+            hips=Turn(yaw=138.0, lean=1.0, tilt=2.0),
+            chest=Turn(yaw=148.0, lean=1.0),
+            head=Turn(yaw=82.0, lean=3.0),
+            right_leg=drawn,
+        ),
+        Key(
+            1.08,
+            place=Place(left=0.122, up=0.036, ahead=0.128),
+            hips=Turn(yaw=272.0, lean=1.0, tilt=2.0),
+            chest=Turn(yaw=284.0, lean=1.0),
+            head=Turn(yaw=346.0, lean=3.0),
+            right_leg=drawn,
+        ),
+        Key(1.16, left_arm=gathered, right_arm=gathered),
+        Key(  # caught
+            landed + 0.06,
+            place=Place(left=0.030, up=-0.070, ahead=0.010),
+            hips=Turn(yaw=358.0, lean=6.0),
+            chest=Turn(yaw=366.0, lean=6.0),
+            head=Turn(yaw=360.0, lean=5.0),
+            left_arm=replace(opened, to=(0.85, -0.70, 0.40)),
+            right_arm=replace(opened, to=(0.85, -0.70, 0.30)),
+            right_leg=drawn,
+        ),
+        at(duration, carried(STAND, yaw=360.0)),
+    ]
+    left = [
+        replace(
+            LEFT_STANCE,
+            on_ball=(
+                OnBall(0.40, 0.0),
+                OnBall(0.56, 44.0, turn=14.0),
+                OnBall(0.80, 52.0, turn=134.0),
+                OnBall(1.08, 52.0, turn=268.0),
+                OnBall(1.34, 16.0, turn=358.0),
+                OnBall(1.46, 0.0, turn=360.0),
+            ),
+        )
+    ]
+    right = [
+        replace(RIGHT_STANCE, leave=off, leave_pitch=36.0, roll=0.14),
+        replace(RIGHT_STANCE, land=landed, yaw=348.0, land_pitch=22.0, flat=0.10, swing=None),
+    ]
+    return make_clip(
+        skeleton,
+        "spin",
+        keys,
+        moved_in_one_go(duration, 0.36, landed + 0.06, yaw=360.0),
+        left_foot=left,
+        right_foot=right,
+        stage_ends_s=(0.0, 0.36, landed, landed + 0.06, duration),
+    )
