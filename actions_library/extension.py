@@ -10,7 +10,7 @@ from pathlib import Path
 
 from actions_library.exemplars import write_exemplar
 from actions_library.folder import EXEMPLARS_FOLDER, load_library, write_library
-from actions_library.library import IDLE, Library
+from actions_library.library import IDLE, Credit, Library
 from actions_library.manifest import MANIFEST, manifest_text
 from actions_library.storage import CLIPS_FOLDER, write_clip_file
 from smd.character.clip import Clip
@@ -76,7 +76,12 @@ def clip_source(
 
 
 def new_library(
-    folder: Path, base: Library, kept: Collection[str], action: Action, clip: Clip
+    folder: Path,
+    base: Library,
+    kept: Collection[str],
+    action: Action,
+    clip: Clip,
+    credit: Credit,
 ) -> Library:
     """Write a library of another one's character, some of its actions, and a new one.
 
@@ -88,8 +93,9 @@ def new_library(
         The other library.
     kept
         Names of the actions to take over; idling always is.
-    action, clip
-        The new action, and how it is performed; it takes the place of one of its name.
+    action, clip, credit
+        The new action, how it is performed, and whose that is; it takes the place of one of its
+        name.
 
     Raises
     ------
@@ -106,11 +112,12 @@ def new_library(
         name=folder.resolve().name,
         character=base.character,
         clips={**clips, action.name: clip},
-        actions=_with(taken, action),
+        actions=_with(tuple(_resting(known, taken) for known in taken), action),
+        credits={**{name: base.credit(name) for name in clips}, action.name: credit},
     )
 
 
-def add_action(library: Library, action: Action, clip: Clip) -> Library:
+def add_action(library: Library, action: Action, clip: Clip, credit: Credit) -> Library:
     """Put an action into a library's folder, in the place of one of its name if there is one.
 
     New files come first, under names that are not taken; ``library.json``, which is renamed into
@@ -123,8 +130,8 @@ def add_action(library: Library, action: Action, clip: Clip) -> Library:
         As it was read from its folder.
     action
         To add.
-    clip
-        How it is performed; of the library's character.
+    clip, credit
+        How it is performed, by the library's character, and whose that is.
 
     Returns
     -------
@@ -153,6 +160,7 @@ def add_action(library: Library, action: Action, clip: Clip) -> Library:
         actions=_with(library.actions, action),
         clip_files={**library.clip_files, action.name: clip_file},
         exemplar_files=exemplar_files,
+        credits={**library.credits, action.name: credit},
     )
     with _taken_back(library.folder, clip_file, exemplar_file):
         with _new_file(library.folder / clip_file) as path:
@@ -166,6 +174,12 @@ def add_action(library: Library, action: Action, clip: Clip) -> Library:
     for file in {*library.clip_files.values(), *library.exemplar_files.values()} - kept:
         (library.folder / file).unlink(missing_ok=True)
     return load_library(library.folder)
+
+
+def _resting(action: Action, among: tuple[Action, ...]) -> Action:
+    """Return an action that rests as it did where what it rests in came along, else idling."""
+    came = action.rest in {other.name for other in among}
+    return action if came else replace(action, rest="")
 
 
 def _with(actions: tuple[Action, ...], new: Action) -> tuple[Action, ...]:

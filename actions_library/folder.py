@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from actions_library.library import Library
+from actions_library.library import Credit, Library
 from actions_library.manifest import MANIFEST, manifest_text, read_manifest
 from smd.errors import LibraryError
 
@@ -44,6 +44,7 @@ def write_library(
     character: Character,
     clips: Mapping[str, Clip],
     actions: tuple[Action, ...],
+    credits: Mapping[str, Credit] | None = None,
 ) -> Library:
     """Write a library's folder, in the place of one that is there, and return it.
 
@@ -61,6 +62,8 @@ def write_library(
         A clip for each action, by the action's name; all of the character's skeleton.
     actions
         With unique names.
+    credits
+        Of the clips whose author is known, by the action's name.
 
     Raises
     ------
@@ -86,7 +89,7 @@ def write_library(
         for action in actions
         if action.exemplar is not None
     }
-    library = Library(name, folder, actions, CHARACTER_FILE, files, exemplar_files)
+    library = Library(name, folder, actions, CHARACTER_FILE, files, exemplar_files, credits or {})
     try:
         temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     except OSError as error:

@@ -20,6 +20,14 @@ IDLE = "idle"
 """The clip that is played where nothing was recognised."""
 
 
+@dataclass(frozen=True, slots=True)
+class Credit:
+    """Whose a clip is, and what may be done with it; empty where nobody said."""
+
+    author: str = ""
+    licence: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Library:
     """Actions, and the character and clips that show them; a folder on disk.
@@ -35,6 +43,7 @@ class Library:
     character_file : of the character, relative to the folder.
     clip_files : of each action's clip, by the action's name.
     exemplar_files : of those actions' exemplars that have one.
+    credits : of each action's clip, where somebody said.
     """
 
     name: str
@@ -43,6 +52,7 @@ class Library:
     character_file: str
     clip_files: Mapping[str, str]
     exemplar_files: Mapping[str, str] = field(default_factory=dict)
+    credits: Mapping[str, Credit] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names = [action.name for action in self.actions]
@@ -52,13 +62,18 @@ class Library:
             if name not in self.clip_files:
                 raise LibraryError(f"{self.folder}: action {name!r}: expected a clip, found none")
         for action in self.actions:
+            if action.rest and action.rest not in names:
+                raise LibraryError(
+                    f"{self.folder}: action {action.name!r}: rest: expected an action of the "
+                    f"library, got {action.rest!r}"
+                )
             if (action.exemplar is None) == (action.name in self.exemplar_files):
                 raise LibraryError(
                     f"{self.folder}: action {action.name!r}: expected a file for its exemplar, "
                     "and none without one"
                 )
         object.__setattr__(self, "actions", tuple(self.actions))
-        for name in ("clip_files", "exemplar_files"):
+        for name in ("clip_files", "exemplar_files", "credits"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
     @cached_property
@@ -100,6 +115,10 @@ class Library:
                 return action
         known = ", ".join(action.name for action in self.actions)
         raise LibraryError(f"library {self.name!r}: expected one of {known}; got {name!r}")
+
+    def credit(self, name: str) -> Credit:
+        """Return whose the clip of an action is."""
+        return self.credits.get(name, Credit())
 
     def clip(self, name: str) -> Clip:
         """Return the clip of an action, or raise LibraryError naming those there are."""

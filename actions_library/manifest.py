@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from actions_library.library import Library
+from actions_library.library import Credit, Library
 from smd.errors import LibraryError, PatternError
 from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from smd.recognition.exemplar import Exemplar
 
 MANIFEST = "library.json"
-SCHEMA, VERSION = "smd.library", 2
+SCHEMA, VERSION = "smd.library", 3
 
 
 def read_manifest(folder: Path) -> Library:
@@ -50,11 +50,14 @@ def read_manifest(folder: Path) -> Library:
             raise LibraryError(f"{path}: actions[{index}]: expected an object, got {row!r}")
     for step in range(version, VERSION):
         rows = [_UPGRADES[step](row) for row in rows]
-    actions, clip_files, exemplar_files = [], {}, {}
+    actions, clip_files, exemplar_files, credits = [], {}, {}, {}
     for row in rows:
         action = _action(path, row)
         actions.append(action)
         clip_files[action.name] = _file(path, row, "clip")
+        credits[action.name] = Credit(
+            author=_value(path, row, "author", str), licence=_value(path, row, "licence", str)
+        )
         if action.exemplar is not None:
             exemplar_files[action.name] = _file(path, row, "exemplar")
     return Library(
@@ -64,6 +67,7 @@ def read_manifest(folder: Path) -> Library:
         character_file=_file(path, document, "character"),
         clip_files=clip_files,
         exemplar_files=exemplar_files,
+        credits=credits,
     )
 
 
@@ -85,6 +89,9 @@ def manifest_text(library: Library) -> str:
             "description": action.description,
             "exemplar": library.exemplar_files.get(action.name),
             "learned_from": list(action.learned_from),
+            "rest": action.rest,
+            "author": library.credit(action.name).author,
+            "licence": library.credit(action.name).licence,
         }
         for action in library.actions
     ]
@@ -98,8 +105,13 @@ def _upgraded_1(row: dict[str, Any]) -> dict[str, Any]:
     return {**row, "exemplar": None, "learned_from": []}
 
 
+def _upgraded_2(row: dict[str, Any]) -> dict[str, Any]:
+    """Return an action of version 2, which idled one way and knew no authors, as of version 3."""
+    return {**row, "rest": "", "author": "", "licence": ""}
+
+
 _UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = MappingProxyType(
-    {1: _upgraded_1}
+    {1: _upgraded_1, 2: _upgraded_2}
 )
 """From each past version to the next one."""
 
@@ -123,6 +135,7 @@ def _action(path: Path, row: dict[str, Any]) -> Action:
         cyclic=_value(path, row, "cyclic", bool),
         description=_value(path, row, "description", str),
         learned_from=tuple(learned_from),
+        rest=_value(path, row, "rest", str),
         exemplar=_exemplar(path, row),
     )
 

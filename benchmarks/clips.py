@@ -189,7 +189,10 @@ def off_balance_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> flo
 
 
 def feet_travel_m(clip: Clip, position: FloatArray) -> float:
-    """Return how far the feet carry the body from the first to the last frame."""
+    """Return how far the feet carry the body from the first to the last frame.
+
+    A foot that takes off may land where it did not stand: what counts is their middle.
+    """
     feet = [clip.skeleton.index(f"{side}_foot") for side in SIDES]
     step = (position[-1, feet] - position[0, feet]).mean(axis=0)
     return float(np.hypot(step[0], step[2]))

@@ -10,7 +10,7 @@ from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.examples import with_examples
 from actions_library.folder import write_library
-from actions_library.library import Library
+from actions_library.library import Credit, Library
 from smd.errors import SmdError
 
 
@@ -19,7 +19,15 @@ def write_humanoid(folder: Path) -> Library:
     character = humanoid_character()
     clips = {clip.name: clip for clip in humanoid_clips(character.skeleton)}
     actions = with_examples(HUMANOID_ACTIONS)
-    return write_library(folder, name="humanoid", character=character, clips=clips, actions=actions)
+    ours = Credit("Spatial Motion Doodles", "MIT")
+    return write_library(
+        folder,
+        name="humanoid",
+        character=character,
+        clips=clips,
+        actions=actions,
+        credits=dict.fromkeys(clips, ours),
+    )
 
 
 def main(arguments: list[str]) -> int:

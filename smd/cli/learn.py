@@ -105,10 +105,11 @@ def learn(
     )
     report = [*_report(new, learned), *_rests(files, doodles, figure_height)]
     performed = dataclasses.replace(shelf.clip(shown.name), name=action)
+    credit = shelf.credit(shown.name)
     if there:
-        extended = add_action(start, new, performed)
+        extended = add_action(start, new, performed, credit)
     else:
-        extended = new_library(library, start, kept, new, performed)
+        extended = new_library(library, start, kept, new, performed, credit)
     typer.echo("\n".join(report))
     why = "" if clip or shown.name == action else f"; there is no clip {action!r}, see --clip"
     typer.echo(f"  clip: {shown.name} of the library {shelf.name!r}{why}")

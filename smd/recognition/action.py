@@ -24,6 +24,8 @@ class Action:
     description : what the gesture of the prop looks like, in one sentence.
     learned_from : the recordings or other examples it was learned from, by name; none where its
         pattern was written by hand.
+    rest : name of the action whose clip is idled in after it: who has sat down sits. The
+        library's idling where empty.
     exemplar : what verification remembers of examples; None where there were none. Arrays have no
         single truth value, so equality leaves it out.
     """
@@ -34,4 +36,5 @@ class Action:
     cyclic: bool = False
     description: str = ""
     learned_from: tuple[str, ...] = ()
+    rest: str = ""
     exemplar: Exemplar | None = field(default=None, compare=False, repr=False)

@@ -50,7 +50,14 @@ from smd.geometry.rotations import (
 )
 from smd.synthetic import strokes
 from smd.synthetic.curves import RATE_HZ
-from smd.synthetic.strokes import GESTURES, Person, Stroke, gesture, tracker_times
+from smd.synthetic.strokes import Person, Stroke, gesture, tracker_times
+
+ACTIONS = (
+    *("walk", "run", "side_step_left", "side_step_right", "jump", "turn_left", "turn_right"),
+    *("punch", "throw", "fly", "bow"),
+)
+"""Whose gestures a labelled corpus plays: kinds enough to generalise over, and a corpus that stays
+what it is when more gestures are added."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,7 +264,7 @@ def labelled_takes(*, people: int, repeats: int, seed: int) -> Iterator[Labelled
         The same seed yields the same takes.
     """
     rng = np.random.default_rng(seed)
-    actions = tuple(GESTURES)
+    actions = ACTIONS
     for i in range(people):
         player = simulated_player(f"player{i + 1:02d}", rng)
         for time in (-1.0, 0.0, 1.0):
@@ -287,7 +294,7 @@ def fourfold_takes(
         How people and takes differ.
     """
     rng = np.random.default_rng([seed, 4])
-    actions = tuple(GESTURES)
+    actions = ACTIONS
     values = (-1.0, 0.0, 1.0)
     pairs = [(time, weight) for time in values for weight in values]
     count = len(pairs) * repeats

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from actions_library.library import IDLE
+from smd.score import Phrase
 from smd.transfer.gait import phase_after
 from smd.transfer.in_place import gesture, idling, turn, turn_passes, turns
 from smd.transfer.move import Move, Placement, nearest_turn
@@ -35,6 +37,7 @@ def course(
     start_s = spans[0].start_s
     at = Placement(path.at(start_s), float(path.heading_at(start_s)))
     moves: list[Move] = []
+    rest = IDLE
     cast = [None if span.phrase is None else pieces.pieces[span.phrase.action] for span in spans]
     for i, (span, piece) in enumerate(zip(spans, cast, strict=True)):
         last = i + 1 == len(spans)
@@ -42,16 +45,43 @@ def course(
             facing_rad = at.heading_rad
             if not last:
                 facing_rad = nearest_turn(float(path.heading_at(span.end_s)), at.heading_rad)
+            following = None if last else spans[i + 1].phrase
+            rises_s = _rising_s(span, rest, following, pieces)
             move = idling(
-                pieces.idle, span.start_s, span.end_s, at, facing_rad=facing_rad, clock_s=clock_s
+                pieces.pieces[rest],
+                span.start_s,
+                rises_s,
+                at,
+                facing_rad=facing_rad,
+                clock_s=clock_s,
             )
             moves.append(move)
+            if rises_s < span.end_s:
+                leaving = pieces.pieces[pieces.leaving[rest]]
+                moves.append(gesture(leaving, rises_s, span.end_s, move.end))
+                rest = IDLE
         else:
             before = moves[-1] if i > 0 and _goes_on(cast[i - 1], piece) else None
             into_gait = not last and _goes_on(piece, cast[i + 1])
             moves += _acted(piece, span, path, at, before, into_gait=into_gait)
+            assert span.phrase is not None
+            rest = pieces.rest_after(span.phrase.action)
         at = moves[-1].end
     return tuple(moves)
+
+
+def _rising_s(span: Span, rest: str, following: Phrase | None, pieces: Repertoire) -> float:
+    """Return when, while idling, a character leaves its rest for what follows; else the end.
+
+    Who sits, and is to walk next, stands up first, however little was drawn for that. It takes
+    the clip's own time where there is so much, and at most two thirds of what there is.
+    """
+    if following is None or rest not in pieces.leaving:
+        return span.end_s
+    if following.action == pieces.leaving[rest]:
+        return span.end_s
+    wanted_s = pieces.pieces[pieces.leaving[rest]].clip.duration_s
+    return span.end_s - min(wanted_s, (span.end_s - span.start_s) * 2.0 / 3.0)
 
 
 def _goes_on(before: Piece | None, after: Piece | None) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.legs import Leg, feet_of, legs_of, world_of, yaw_of
 from smd.transfer.standing import standing
+
+SAME_POSE = 0.999
+"""Cosine of half the angle up to which all joints of two poses are turned alike: 5 degrees."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,27 +71,50 @@ class Repertoire:
     ----------
     pieces : by action.
     legs : of the character.
+    rests : what is idled in after an action, where that is not idling.
+    leaving : what leads out of such a rest, by the rest's name: its clip begins as that one does.
     """
 
     pieces: Mapping[str, Piece]
     legs: tuple[Leg, ...]
+    rests: Mapping[str, str] = field(default_factory=dict)
+    leaving: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def idle(self) -> Piece:
         """What is played where nothing is performed."""
         return self.pieces[IDLE]
 
+    def rest_after(self, action: str) -> str:
+        """Return the action whose clip is idled in after another one."""
+        return self.rests.get(action, IDLE)
+
 
 def repertoire(library: Library, actions: Iterable[str]) -> Repertoire:
     """Study the clips of some actions, and of idling."""
-    names = sorted({IDLE, *actions})
+    rests = {name: rest for name in actions if (rest := library.action(name).rest)}
+    leaving = _leaving(library, set(rests.values()))
+    names = sorted({IDLE, *actions, *rests.values(), *leaving.values()})
     clips = [library.clip(name) for name in names]
     legs = legs_of(library.character.skeleton, sorted({f for clip in clips for f in feet_of(clip)}))
     pieces = {
         name: piece_of(clip, travels=library.action(name).travels, legs=legs)
         for name, clip in zip(names, clips, strict=True)
     }
-    return Repertoire(pieces, legs)
+    return Repertoire(pieces, legs, rests, leaving)
+
+
+def _leaving(library: Library, rests: set[str]) -> dict[str, str]:
+    """Return the action that leads out of each rest: its clip begins there, and ends elsewhere."""
+    found = {}
+    for rest in sorted(rests):
+        first = library.clip(rest).rotation_xyzw[0, 1:]
+        for action in library.actions:
+            q = library.clip(action.name).rotation_xyzw[:, 1:]
+            begins, ends = (np.abs(np.sum(q[i] * first, axis=-1)).min() for i in (0, -1))
+            if begins > SAME_POSE > ends:
+                found[rest] = action.name
+    return found
 
 
 def piece_of(clip: Clip, *, travels: bool, legs: Sequence[Leg]) -> Piece:

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from actions_library.folder import load_library, write_library
-from actions_library.library import Library
+from actions_library.library import Credit, Library
 from smd.errors import LibraryError
 from smd.recognition.action import Action
 from smd.recognition.exemplar import Exemplar, exemplar_of
@@ -186,6 +186,14 @@ def test_a_library_of_version_1_still_loads():
     assert library.clip("walk").cyclic
 
 
+def test_a_library_of_version_2_still_loads_with_nobody_s_clips_and_one_idling():
+    library = load_library(GOLDEN / "version_2")
+    walk = library.action("walk")
+    assert walk.learned_from == ("one.csv", "two.csv")
+    assert walk.exemplar is not None and len(walk.exemplar) == 2
+    assert (walk.rest, library.credit("walk")) == ("", Credit())
+
+
 def test_a_library_of_version_1_is_written_again_as_the_present_one(tmp_path):
     old = load_library(GOLDEN / "version_1")
     new = write_library(
@@ -197,7 +205,7 @@ def test_a_library_of_version_1_is_written_again_as_the_present_one(tmp_path):
     )
     assert new.actions == old.actions
     document = json.loads((new.folder / "library.json").read_text(encoding="utf-8"))
-    assert document["version"] == 2
+    assert document["version"] == 3
     assert replace(new.action("walk")) == old.action("walk")
 
 

@@ -170,15 +170,15 @@ def test_a_failed_writing_leaves_the_old_library(library, tmp_path):
 
 
 def test_an_unknown_action_is_answered_with_those_there_are(library):
-    with pytest.raises(LibraryError, match=r"walk, idle.*'swim'"):
-        library.action("swim")
+    with pytest.raises(LibraryError, match=r"walk, idle.*'moonwalk'"):
+        library.action("moonwalk")
 
 
 @pytest.mark.parametrize(
     ("change", "named"),
     [
         ({"schema": "other"}, "schema"),
-        ({"version": 3}, "version"),
+        ({"version": 4}, "version"),
         ({"version": 0}, "version"),
         ({"version": True}, "version"),
         ({"version": "2"}, "version"),

@@ -255,7 +255,7 @@ def leap(skeleton: Skeleton) -> Clip:
             head=Turn(lean=12.0),
             left_arm=Arm(to=(0.60, -0.80, 0.30), bend=26.0),
             right_arm=Arm(to=(0.60, -0.75, 0.30), bend=26.0),
-            left_leg=replace(behind_leg, to=(0.04, -0.90, -0.28), bend=92.0, point=30.0),
+            left_leg=replace(behind_leg, to=(0.04, -0.90, -0.28), bend=96.0, point=4.0),
         ),
         Key(
             closed,

@@ -142,8 +142,8 @@ def test_the_clip_is_the_one_asked_for(run_smd, takes, my):
     assert (code, "clip: walk of the library 'humanoid'" in out) == (0, True)
     fling = load_library(my).action("fling")
     assert (fling.travels, fling.cyclic) == (True, True)
-    _, out, _ = run_smd("learn", "nod", *takes("bow", 1), "--library", my)
-    assert "clip: idle of the library 'my'; there is no clip 'nod', see --clip" in out
+    _, out, _ = run_smd("learn", "greet", *takes("bow", 1), "--library", my)
+    assert "clip: idle of the library 'my'; there is no clip 'greet', see --clip" in out
 
 
 def test_a_clip_that_is_nowhere_is_refused_with_those_there_are(run_smd, takes, my):
@@ -155,11 +155,11 @@ def test_a_clip_that_is_nowhere_is_refused_with_those_there_are(run_smd, takes, 
 
 def test_a_new_library_may_begin_with_all_shipped_actions(run_smd, takes, tmp_path):
     folder = tmp_path / "all"
-    args = ["learn", "nod", *takes("bow", 0, 1), "--library", folder, "--from", "humanoid"]
+    args = ["learn", "greet", *takes("bow", 0, 1), "--library", folder, "--from", "humanoid"]
     assert run_smd(*args)[0] == 0
     _, out, _ = run_smd("library", "list", "--library", folder, "--json")
     names = [row["name"] for row in json.loads(out)]
-    assert {"walk", "bow", "idle", "nod"} <= set(names)
+    assert {"walk", "bow", "idle", "greet"} <= set(names)
     refused(run_smd(*args), "no library there")
 
 

@@ -18,7 +18,8 @@ from smd.recognition.average import average_doodle
 from smd.recognition.embedding import extent_m, heading_frame, sample_poses, seen_from
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, STEADY, simulated_person
+from smd.synthetic.efforts import ACTIONS
+from smd.synthetic.strokes import STEADY, simulated_person
 from smd.synthetic.takes import Take
 
 UP = [0.0, 1.0, 0.0]
@@ -58,7 +59,7 @@ def apart(a, b):
     )
 
 
-@pytest.mark.parametrize("action", GESTURES)
+@pytest.mark.parametrize("action", ACTIONS)
 @pytest.mark.parametrize("count", [1, 3])
 def test_the_average_of_equal_doodles_is_the_doodle(action, count):
     doodle = exact(action)
@@ -69,7 +70,7 @@ def test_the_average_of_equal_doodles_is_the_doodle(action, count):
     assert angle < 5e-3
 
 
-@pytest.mark.parametrize("action", GESTURES)
+@pytest.mark.parametrize("action", ACTIONS)
 def test_where_the_examples_are_and_face_does_not_matter(action):
     doodle = exact(action)
     average = average_doodle(

@@ -139,7 +139,8 @@ def test_what_the_shipped_patterns_share_both_accept():
 
 
 def test_forty_actions_are_compared_within_seconds():
-    many = {f"{name}_{i}": pattern for i in range(4) for name, pattern in SHIPPED.items()}
+    some = list(SHIPPED.items())[:11]
+    many = {f"{name}_{i}": pattern for i in range(4) for name, pattern in some}
     many = dict(list(many.items())[:40])
     started = time.process_time()
     found = collisions(many)

@@ -16,7 +16,8 @@ from smd.recognition.pattern import Pattern
 from smd.recognition.places import Stroke
 from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
-from smd.synthetic.strokes import GESTURES, STEADY, progress, simulated_person
+from smd.synthetic.efforts import ACTIONS
+from smd.synthetic.strokes import STEADY, progress, simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.learning_by_index import learned_by_index
 
@@ -58,7 +59,7 @@ def random_word(rng, length):
     return tuple(b for a, b in zip([None, *word], word, strict=False) if a != b)
 
 
-@pytest.mark.parametrize("action", GESTURES)
+@pytest.mark.parametrize("action", ACTIONS)
 @pytest.mark.parametrize("count", [1, 2, 3, 10])
 def test_every_example_and_their_average_is_accepted(action, count):
     doodles = played(action, count)
@@ -104,7 +105,7 @@ def test_there_are_several_ways_only_where_no_place_is_shared(given):
 @pytest.mark.parametrize("count", [3, 10])
 def test_more_examples_do_not_make_it_accept_everything(count):
     """Bound: 3 % of random strings of a pattern's own tokens, 1 % of other gestures."""
-    learned = {action: learn_pattern(played(action, count)) for action in GESTURES}
+    learned = {action: learn_pattern(played(action, count)) for action in ACTIONS}
     rng = np.random.default_rng(7)
     by_chance, strangers = [], []
     for action, one in learned.items():
@@ -113,7 +114,7 @@ def test_more_examples_do_not_make_it_accept_everything(count):
             for _ in range(100):
                 word = [tokens[i] for i in rng.integers(0, len(tokens), rng.integers(4, 12))]
                 by_chance.append(distance(one.pattern, tuple(word)) == 0)
-        for other in GESTURES:
+        for other in ACTIONS:
             if other != action:
                 words = map(sequence_of, played(other, 2, seed=99))
                 strangers += [distance(one.pattern, word) == 0 for word in words]

@@ -13,7 +13,8 @@ from smd.recognition.recognizer import TokenSpotter, recognize
 from smd.recognition.streaming import HORIZON_S, RecognitionStream
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, STEADY, simulated_person
+from smd.synthetic.efforts import ACTIONS
+from smd.synthetic.strokes import STEADY, simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.streaming import spans_as_they_become_final
 
@@ -51,7 +52,7 @@ def assert_same(ours, theirs):
         assert a == pytest.approx(b, abs=1e-6)
 
 
-def row(seed, actions=GESTURES, person=None, pause_s=(0.4, 1.2)):
+def row(seed, actions=ACTIONS, person=None, pause_s=(0.4, 1.2)):
     rng = np.random.default_rng(seed)
     take = Take(person or simulated_person(rng), rng).pause(0.6)
     for action in rng.permutation(list(actions)):
@@ -62,7 +63,7 @@ def row(seed, actions=GESTURES, person=None, pause_s=(0.4, 1.2)):
 @pytest.mark.parametrize("seed", range(6))
 def test_it_says_what_the_offline_pass_says_when_it_must_decide(seed):
     """All it forgets does not matter: the oracle tokenizes everything again and forgets nothing."""
-    doodle = row([3, seed], list(GESTURES)[seed % 3 :: 2])
+    doodle = row([3, seed], list(ACTIONS)[seed % 3 :: 2])
     ours = told(span for span, _ in streamed(doodle))
     assert_same(ours, spans_as_they_become_final(doodle, SPOTTER))
 
@@ -78,7 +79,7 @@ def test_without_a_horizon_it_says_what_the_offline_pass_says_of_all(seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_gestures_without_a_rest_inside_are_read_as_offline(seed):
     """No gesture of these has a part that is an action and half a second of something else."""
-    actions = [a for a in GESTURES if a not in ("bow", "run", "punch")]
+    actions = [a for a in ACTIONS if a not in ("bow", "run", "punch")]
     doodle = row([5, seed], actions, STEADY, pause_s=(0.6, 1.2))
     assert_same(told(span for span, _ in streamed(doodle)), told(offline(doodle)))
 
@@ -130,7 +131,7 @@ def test_a_long_stream_does_not_grow():
         shift_s = lap * (doodle.duration_s + 0.02)
         for t, p, q, on in samples(doodle):
             found += len(stream.push(t + shift_s, p, q, on))
-    assert found > 5 * len(GESTURES)
+    assert found > 5 * len(ACTIONS)
     assert len(stream._arrays[0]) < 60 * 8
     assert len(stream._given) < 200 * 8
 

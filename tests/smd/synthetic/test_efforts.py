@@ -9,8 +9,8 @@ from laban import Effort
 from smd.errors import DoodleError
 from smd.smoothing import smooth
 from smd.synthetic import efforts
-from smd.synthetic.efforts import labelled_takes, simulated_player, simulated_take
-from smd.synthetic.strokes import GESTURES, STEADY, gesture
+from smd.synthetic.efforts import ACTIONS, labelled_takes, simulated_player, simulated_take
+from smd.synthetic.strokes import STEADY, gesture
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_a_strong_stroke_rings_when_it_is_stopped(plain):
     assert after(1.0) > 3.0 * after(-1.0)
 
 
-@pytest.mark.parametrize("action", GESTURES)
+@pytest.mark.parametrize("action", ACTIONS)
 def test_every_action_can_be_played_with_every_effort(action):
     rng = np.random.default_rng(0)
     for time, weight in ((1.0, 1.0), (-1.0, -1.0), (None, None)):
@@ -111,12 +111,12 @@ def test_every_pairing_is_played_as_often_by_everybody():
 
 
 def test_no_action_comes_again_before_all_were_played():
-    takes = list(labelled_takes(people=1, repeats=len(GESTURES), seed=0))
-    for i in range(0, len(takes), len(GESTURES)):
-        assert {take.action for take in takes[i : i + len(GESTURES)]} == set(GESTURES)
+    takes = list(labelled_takes(people=1, repeats=len(ACTIONS), seed=0))
+    for i in range(0, len(takes), len(ACTIONS)):
+        assert {take.action for take in takes[i : i + len(ACTIONS)]} == set(ACTIONS)
 
 
 def test_an_unknown_action_is_refused():
     rng = np.random.default_rng(0)
-    with pytest.raises(DoodleError, match="swim"):
-        simulated_take("swim", Effort(), simulated_player("x", rng), rng)
+    with pytest.raises(DoodleError, match="moonwalk"):
+        simulated_take("moonwalk", Effort(), simulated_player("x", rng), rng)

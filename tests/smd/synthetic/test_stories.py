@@ -14,10 +14,11 @@ from smd.recognition.recognizer import recognize
 from smd.recognition.tokenizer import tokenize
 from smd.score import read_score
 from smd.smoothing import smooth
+from smd.synthetic.efforts import ACTIONS
 from smd.synthetic.stories import STORIES, main
 
 RECORDINGS = Path(__file__).parents[3] / "recordings"
-PATTERNS = {action.name: action.pattern for action in HUMANOID_ACTIONS if action.pattern}
+PATTERNS = {a.name: a.pattern for a in HUMANOID_ACTIONS if a.name in ACTIONS}
 
 
 def turned(doodle):
