@@ -89,7 +89,7 @@ def confusions(takes: Iterator[tuple[str, Doodle]]) -> dict[str, Counter[str]]:
 
 def print_confusions(table: Mapping[str, Counter[str]]) -> None:
     """Print the share read right and what the rest was read as."""
-    for meant in GESTURES:
+    for meant in table:
         count = sum(table[meant].values())
         wrong = [f"{read} {n}" for read, n in table[meant].most_common() if read != meant]
         right = table[meant][meant]

@@ -36,6 +36,10 @@ class LibraryError(SmdError):
     """A library folder that is missing, incomplete or not ours."""
 
 
+class ImportedFileError(SmdError):
+    """A BVH, glTF or USD file from which no character or clip can be taken."""
+
+
 class ScoreError(SmdError):
     """A Score that does not fit its schema, its recording or its library."""
 

@@ -1,0 +1,1 @@
+"""Adoption: what was imported becomes a library's character and clips."""

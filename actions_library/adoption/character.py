@@ -1,0 +1,120 @@
+"""An imported figure as a character of ours: on the ground, facing +Z, below a ground root."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from actions_library.importers.imported import Imported, fault, unique_names
+from smd.character.character import Character, Mesh
+from smd.character.kinematics import forward_kinematics
+from smd.character.roles import BodyPlan, body_plan
+from smd.character.skeleton import Skeleton
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import (
+    IDENTITY_XYZW,
+    matrix_from_quaternion,
+    multiply,
+    quaternion_about,
+    rotate,
+)
+
+GROUND_ROOT = "ground_root"
+"""Name of the joint that carries travel and heading; numbered where a file has one."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standing:
+    """How an imported figure has to be turned and shifted to stand at the origin, facing +Z.
+
+    Attributes
+    ----------
+    turn_xyzw : (4,) about +Y, first.
+    shift_m : (3,) then.
+    height_m : of the figure.
+    """
+
+    turn_xyzw: FloatArray
+    shift_m: FloatArray
+    height_m: float
+
+
+def plan_of(imported: Imported, *, front: Sequence[float] | None = None) -> BodyPlan:
+    """Return how an imported skeleton is built; ``front`` overrules the guess of where it faces."""
+    skeleton = imported.skeleton
+    _, place = rest_pose(skeleton)
+    return body_plan(skeleton.joints, skeleton.parents.tolist(), place, front=front)
+
+
+def rest_pose(skeleton: Skeleton) -> tuple[FloatArray, FloatArray]:
+    """Return rotations ``(j, 4)`` and positions ``(j, 3)`` of the joints in the world at rest."""
+    return forward_kinematics(skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m)
+
+
+def standing_of(imported: Imported, plan: BodyPlan) -> Standing:
+    """Return how a figure has to be turned and shifted.
+
+    The ground is below its lowest point; the origin between its feet, or below its pelvis.
+    """
+    _, place = rest_pose(imported.skeleton)
+    turn = quaternion_about([0.0, 1.0, 0.0], -np.arctan2(plan.front[0], plan.front[2]))
+    place = rotate(turn, place)
+    points = [rotate(turn, mesh.points_m) for mesh in imported.meshes]
+    everything = np.concatenate([place, *points])
+    feet = [limb.end for limb in plan.limbs if limb.kind == "leg"]
+    middle = place[feet].mean(axis=0) if feet else place[plan.pelvis]
+    lowest, highest = everything[:, 1].min(), everything[:, 1].max()
+    shift = np.array([-middle[0], -lowest, -middle[2]])
+    return Standing(turn, shift, float(highest - lowest))
+
+
+def adopted_character(
+    imported: Imported, name: str, *, front: Sequence[float] | None = None
+) -> Character:
+    """Return an imported figure as a character.
+
+    Raises
+    ------
+    ImportedFileError
+        If the file holds no mesh that its joints move.
+    """
+    if not imported.meshes:
+        raise fault(imported.path, "", "a character with a mesh", "a skeleton alone")
+    standing = standing_of(imported, plan_of(imported, front=front))
+    skeleton = grounded_skeleton(imported.skeleton, standing)
+    meshes = tuple(
+        replace(
+            mesh,
+            points_m=rotate(standing.turn_xyzw, mesh.points_m) + standing.shift_m,
+            joint_indices=np.where(mesh.joint_weights > 0.0, mesh.joint_indices + 1, 0),
+        )
+        for mesh in imported.meshes
+    )
+    return Character(name, skeleton, _with_unique_names(meshes))
+
+
+def grounded_skeleton(skeleton: Skeleton, standing: Standing) -> Skeleton:
+    """Return a skeleton that stands at the origin, below a new first joint on the ground."""
+    roots = skeleton.parents < 0
+    rotation = skeleton.rest_rotation_xyzw.copy()
+    translation = skeleton.rest_translation_m.copy()
+    rotation[roots] = multiply(standing.turn_xyzw, rotation[roots])
+    translation[roots] = rotate(standing.turn_xyzw, translation[roots]) + standing.shift_m
+    change = np.eye(4)
+    change[:3, :3] = matrix_from_quaternion(standing.turn_xyzw)
+    change[:3, 3] = standing.shift_m
+    return Skeleton(
+        joints=unique_names([*skeleton.joints, GROUND_ROOT])[-1:] + skeleton.joints,
+        parents=np.concatenate([[-1], skeleton.parents + 1]),
+        rest_rotation_xyzw=np.concatenate([[IDENTITY_XYZW], rotation]),
+        rest_translation_m=np.concatenate([np.zeros((1, 3)), translation]),
+        world_from_bind=np.concatenate([np.eye(4)[None], change @ skeleton.world_from_bind]),
+        roles=("root", *skeleton.roles),
+    )
+
+
+def _with_unique_names(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
+    names = unique_names([mesh.name for mesh in meshes])
+    return tuple(replace(mesh, name=name) for mesh, name in zip(meshes, names, strict=True))

@@ -1,0 +1,250 @@
+"""The meshes of a glTF file, bound to its joints, a colour a mesh."""
+
+from __future__ import annotations
+
+import io
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from actions_library.importers.gltf_file import GltfFile
+from actions_library.importers.imported import bound, fault, strongest, unique_names
+from smd.character.character import Mesh
+from smd.geometry.arrays import FloatArray, IntArray
+
+MOST_COLORS = 12
+"""Of a file: textures are not kept, but their colours are, each a mesh of its own."""
+
+_MOST_PIXELS = 1 << 26
+_GREY = (0.9, 0.9, 0.9)
+
+
+def read_meshes(
+    file: GltfFile,
+    parent: dict[int, int],
+    joints: list[int],
+    bind: FloatArray,
+    inverse_binds: list[FloatArray],
+    rest: dict[int, FloatArray],
+) -> tuple[list[Mesh], list[str]]:
+    """Return the meshes that joints move, in the bind pose, and what was left out.
+
+    Parameters
+    ----------
+    parent
+        Of each node.
+    joints
+        Nodes that are joints.
+    bind
+        ``(j, 4, 4)`` where they stood when bound.
+    inverse_binds
+        Of each skin's joints.
+    rest
+        Each node's matrix at rest.
+    """
+    parts: list[_Part] = []
+    notes: list[str] = []
+    morphs, loose = 0, 0
+    pictures: dict[int, Any] = {}
+    for node in range(file.count("nodes")):
+        item = file.node(node)
+        if "mesh" not in item:
+            continue
+        mesh = file.item("meshes", file.index(item["mesh"], "meshes", f"nodes[{node}]"))
+        holder = node
+        while holder >= 0 and holder not in joints:
+            holder = parent[holder]
+        if "skin" not in item and holder < 0:
+            loose += 1
+            continue
+        primitives = mesh.get("primitives", [])
+        if not isinstance(primitives, list):
+            raise fault(file.path, f"meshes[{item['mesh']}]", "a list of primitives", "none")
+        for k, primitive in enumerate(primitives):
+            where = f"meshes[{item['mesh']}].primitives[{k}]"
+            geometry = _geometry(file, primitive, where)
+            if geometry is None:
+                continue
+            points, triangles = geometry
+            morphs += len(primitive.get("targets") or [])
+            if "skin" in item:
+                skin = file.index(item["skin"], "skins", f"nodes[{node}]")
+                indices, weights = _influences(file, primitive, len(points), where)
+                own = [joints.index(j) for j in file.item("skins", skin)["joints"]]
+                if indices.max(initial=0) >= len(own):
+                    raise fault(file.path, where, f"joints below {len(own)}", indices.max())
+                matrices = bind[own] @ inverse_binds[skin]
+                points = bound(points, weights, indices, matrices)
+                indices = np.asarray(own, dtype=np.int64)[indices]
+            else:
+                at = joints.index(holder)
+                way = bind[at] @ np.linalg.inv(rest[holder]) @ rest[node]
+                points = points @ way[:3, :3].T + way[:3, 3]
+                indices = np.full((len(points), 4), at, dtype=np.int64)
+                weights = np.tile([1.0, 0.0, 0.0, 0.0], (len(points), 1))
+            name = str(item.get("name") or mesh.get("name") or f"mesh_{node}")
+            rgb = _colors(file, primitive, triangles, pictures, where)
+            parts.append(_Part(name, points, triangles, indices, weights, rgb))
+    if morphs:
+        notes.append(f"{morphs} morph targets are not kept")
+    if loose:
+        notes.append(f"{loose} meshes that no joint moves are not kept")
+    absent = [str(source) for source, pixels in pictures.items() if pixels is None]
+    if absent:
+        notes.append(f"pictures of textures are missing: {', '.join(absent)}")
+    return _by_color(parts), notes
+
+
+class _Part(NamedTuple):
+    """A primitive's points, triangles, influences, and the sRGB colour of each triangle."""
+
+    name: str
+    points: FloatArray
+    triangles: IntArray
+    indices: IntArray
+    weights: FloatArray
+    rgb: FloatArray
+
+
+def _by_color(parts: list[_Part]) -> list[Mesh]:
+    """Return a mesh for each of the few colours that stand for all of a file's triangles."""
+    if not parts:
+        return []
+    starts = np.cumsum([0, *(len(part.points) for part in parts)])
+    triangles = np.concatenate([p.triangles + s for p, s in zip(parts, starts, strict=False)])
+    points, indices, weights = (
+        np.concatenate([getattr(part, name) for part in parts])
+        for name in ("points", "indices", "weights")
+    )
+    of, palette = _few(np.concatenate([part.rgb for part in parts]))
+    owner = np.repeat(np.arange(len(parts)), [len(part.triangles) for part in parts])
+    cuts = []
+    for color in np.unique(of):
+        here = of == color
+        largest = int(np.bincount(owner[here]).argmax())
+        used, faces = np.unique(triangles[here], return_inverse=True)
+        kept = (points[used], faces.reshape(-1, 3), indices[used], weights[used])
+        cuts.append((parts[largest].name, kept, _linear(palette[color])))
+    names = unique_names([name for name, _, _ in cuts])
+    return [Mesh(n, *kept, rgb) for n, (_, kept, rgb) in zip(names, cuts, strict=True)]
+
+
+def _few(rgb: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return which of a few colours stands for each one, and these ``(c, 3)``."""
+    from PIL import Image
+
+    image = Image.fromarray((255.0 * rgb[None]).round().astype(np.uint8))
+    few = image.quantize(MOST_COLORS, Image.Quantize.MAXCOVERAGE)
+    palette = np.array(few.getpalette(), dtype=np.float64)[: 3 * MOST_COLORS].reshape(-1, 3)
+    return np.asarray(few)[0].astype(np.int64), palette / 255.0
+
+
+def _linear(srgb: FloatArray) -> tuple[float, float, float]:
+    r, g, b = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).tolist()
+    return r, g, b
+
+
+def _encoded(linear: FloatArray) -> FloatArray:
+    linear = np.clip(linear, 0.0, 1.0)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def _geometry(file: GltfFile, primitive: Any, where: str) -> tuple[FloatArray, IntArray] | None:
+    """Return the points and triangles of a primitive; None where it draws lines or points."""
+    if not isinstance(primitive, dict) or not isinstance(primitive.get("attributes"), dict):
+        raise fault(file.path, where, "attributes", "none")
+    if primitive.get("mode", 4) not in (4, 5, 6):
+        return None
+    points = file.accessor(primitive["attributes"].get("POSITION"), where)
+    if points.shape[1] != 3 or not np.isfinite(points).all() or not len(points):
+        raise fault(file.path, where, "finite points", "none, or some that are not")
+    if "indices" in primitive:
+        order = file.accessor(primitive["indices"], where)[:, 0].astype(np.int64)
+    else:
+        order = np.arange(len(points))
+    if len(order) < 3 or order.max() >= len(points):
+        raise fault(file.path, where, f"indices below {len(points)}", order.max(initial=0))
+    mode = primitive.get("mode", 4)
+    if mode == 4:
+        return points, order[: len(order) // 3 * 3].reshape(-1, 3)
+    if mode == 6:  # a fan
+        ends = np.stack([order[1:-1], order[2:]], axis=-1)
+        return points, np.column_stack([np.full(len(ends), order[0]), ends])
+    strip = np.stack([order[:-2], order[1:-1], order[2:]], axis=-1)
+    strip[1::2, :2] = strip[1::2, 1::-1]
+    return points, strip
+
+
+def _influences(
+    file: GltfFile, primitive: dict[str, Any], count: int, where: str
+) -> tuple[IntArray, FloatArray]:
+    """Return the four strongest joints of each point and their weights."""
+    attributes, indices, weights = primitive["attributes"], [], []
+    for k in range(8):
+        if f"JOINTS_{k}" not in attributes:
+            break
+        indices.append(file.accessor(attributes[f"JOINTS_{k}"], where))
+        weights.append(file.accessor(attributes.get(f"WEIGHTS_{k}"), where))
+    if not indices:
+        raise fault(file.path, where, "JOINTS_0 and WEIGHTS_0", "none")
+    all_indices, all_weights = np.hstack(indices).astype(np.int64), np.hstack(weights)
+    if all_indices.shape != all_weights.shape or len(all_indices) != count:
+        raise fault(file.path, where, f"joints and weights of {count} points", len(all_indices))
+    # Some exporters divide by a sum of zero: such a point goes with its first joint.
+    return strongest(all_indices, np.nan_to_num(all_weights, posinf=0.0, neginf=0.0))
+
+
+def _colors(
+    file: GltfFile,
+    primitive: dict[str, Any],
+    triangles: IntArray,
+    pictures: dict[int, Any],
+    where: str,
+) -> FloatArray:
+    """Return each triangle's sRGB colour ``(t, 3)``: the material's, times its texture's there."""
+    if "material" not in primitive:
+        return np.full((len(triangles), 3), _GREY)
+    surface = file.item("materials", primitive["material"]).get("pbrMetallicRoughness", {})
+    if not isinstance(surface, dict):
+        return np.full((len(triangles), 3), _GREY)
+    factor = file.numbers(surface.get("baseColorFactor", [1.0] * 4), 4, where)[:3]
+    texture = surface.get("baseColorTexture")
+    plain = np.tile(_encoded(factor), (len(triangles), 1))
+    if not isinstance(texture, dict):
+        return plain
+    key = f"TEXCOORD_{texture.get('texCoord', 0)}"
+    source = file.item("textures", texture.get("index")).get("source")
+    if key not in primitive["attributes"] or source is None:
+        return plain
+    if source not in pictures:
+        pictures[source] = _picture(file, source)
+    pixels = pictures[source]
+    if pixels is None:
+        return plain
+    uv = file.accessor(primitive["attributes"][key], where)
+    if len(uv) <= triangles.max() or not np.isfinite(uv).all():
+        raise fault(file.path, where, "a texture place for each point", len(uv))
+    middle = np.mod(uv[triangles].mean(axis=1), 1.0)
+    row = np.minimum((middle[:, 1] * len(pixels)).astype(int), len(pixels) - 1)
+    column = np.minimum((middle[:, 0] * pixels.shape[1]).astype(int), pixels.shape[1] - 1)
+    return np.asarray(pixels[row, column] / 255.0 * _encoded(factor))
+
+
+def _picture(file: GltfFile, source: Any) -> Any:
+    """Return a picture's pixels ``(h, w, 3)`` uint8; None where its file is not there."""
+    from PIL import Image
+
+    item, where = file.item("images", source), f"images[{source}]"
+    if "bufferView" in item:
+        data: bytes | None = bytes(file.view(item["bufferView"], where)[0])
+    else:
+        data = file.content(item.get("uri"), f"{where}.uri", needed=False)
+    if data is None:
+        return None
+    try:
+        with Image.open(io.BytesIO(data)) as image:
+            if image.width * image.height > _MOST_PIXELS:
+                raise fault(file.path, where, f"at most {_MOST_PIXELS} pixels", image.size)
+            return np.asarray(image.convert("RGB"))
+    except (OSError, Image.DecompressionBombError) as error:
+        raise fault(file.path, where, "a picture", str(error)[:80]) from None
