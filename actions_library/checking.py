@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from actions_library.library import IDLE, Library
 from actions_library.storage import read_clip_file
+from smd.character.quality import flaws
 from smd.errors import LibraryError
 from smd.recognition.collisions import collisions
 
@@ -55,9 +56,36 @@ def _warnings(library: Library) -> Iterator[str]:
             f"{library.folder}: no action {IDLE!r}, which is played where nothing is drawn: "
             "recordings can be parsed, but not animated"
         )
+    rests = {IDLE, *(action.rest for action in library.actions)}
     for action in library.actions:
-        if action.pattern is None and action.name != IDLE:
+        if action.pattern is None and action.name not in rests:
             yield f"action {action.name!r}: no pattern: it will not be recognised"
+    yield from _clip_warnings(library)
     patterns = {action.name: action.pattern for action in library.actions if action.pattern}
+    verified = {action.name for action in library.actions if action.exemplar is not None}
+    told = 0
     for collision in collisions(patterns):
-        yield str(collision)
+        both = {collision.first, collision.second} <= verified
+        if both and collision.kind not in ("equal", "contained"):
+            told += 1
+        else:
+            yield str(collision)
+    if told:
+        yield f"{told} pairs of gestures overlap in their tokens; their examples tell them apart"
+
+
+def _clip_warnings(library: Library) -> Iterator[str]:
+    """Yield what is not right in clips that can be read, by `smd.character.quality`."""
+    try:
+        skeleton = library.character.skeleton
+    except LibraryError:
+        return
+    for action in library.actions:
+        try:
+            clip = read_clip_file(
+                library.folder / library.clip_files[action.name], action.name, skeleton
+            )
+        except LibraryError:
+            continue
+        for flaw in flaws(clip, travels=action.travels):
+            yield f"action {action.name!r}: its clip {flaw}"

@@ -21,13 +21,18 @@ from smd.recognition.action import Action
 _NAME = re.compile(r"[^\W\d_]\w{0,59}")
 
 
-def require_name(name: str) -> None:
+def require_word(name: str) -> None:
     """Raise LibraryError unless a name is a lower-case word, which may also name a file."""
     if not _NAME.fullmatch(name) or name != name.lower():
         raise LibraryError(
             "action: expected a lower-case word of letters, digits and _ that begins with a "
             f"letter, got {name[:60]!r}"
         )
+
+
+def require_name(name: str) -> None:
+    """Raise LibraryError unless a name is a word that a gesture may have."""
+    require_word(name)
     if name == IDLE:
         raise LibraryError(
             f"action: expected another name than {IDLE!r}, which is played where nothing is drawn"
@@ -35,8 +40,8 @@ def require_name(name: str) -> None:
 
 
 def require_new(library: Library, name: str) -> None:
-    """Raise LibraryError if a library has an action of this name."""
-    if name in {action.name for action in library.actions}:
+    """Raise LibraryError if a library has a gesture of this name; a clip alone waits for one."""
+    if name in {action.name for action in library.actions if action.pattern is not None}:
         raise LibraryError(
             f"{library.folder}: action {name!r} is there already: expected another name, "
             "or --replace"
@@ -118,6 +123,15 @@ def new_library(
 
 
 def add_action(library: Library, action: Action, clip: Clip, credit: Credit) -> Library:
+    """Put a gesture and its clip into a library's folder, in the place of one of its name.
+
+    As `put_clip` does; raises LibraryError also if the name is not one a gesture may have.
+    """
+    require_name(action.name)
+    return put_clip(library, action, clip, credit)
+
+
+def put_clip(library: Library, action: Action, clip: Clip, credit: Credit) -> Library:
     """Put an action into a library's folder, in the place of one of its name if there is one.
 
     New files come first, under names that are not taken; ``library.json``, which is renamed into
@@ -145,7 +159,7 @@ def add_action(library: Library, action: Action, clip: Clip, credit: Credit) -> 
     ExportError
         If the folder cannot be written.
     """
-    require_name(action.name)
+    require_word(action.name)
     if clip.skeleton.joints != library.character.skeleton.joints:
         raise LibraryError(
             f"clip {clip.name!r}: expected one that moves the character of {library.folder}"

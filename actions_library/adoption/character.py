@@ -83,6 +83,8 @@ def adopted_character(
     if not imported.meshes:
         raise fault(imported.path, "", "a character with a mesh", "a skeleton alone")
     standing = standing_of(imported, plan_of(imported, front=front))
+    if _has_ground_root(imported.skeleton, standing):
+        return Character(name, imported.skeleton, _with_unique_names(imported.meshes))
     skeleton = grounded_skeleton(imported.skeleton, standing)
     meshes = tuple(
         replace(
@@ -93,6 +95,19 @@ def adopted_character(
         for mesh in imported.meshes
     )
     return Character(name, skeleton, _with_unique_names(meshes))
+
+
+def _has_ground_root(skeleton: Skeleton, standing: Standing) -> bool:
+    """Return whether a figure stands already, and its first joint on the ground between its feet.
+
+    Then that joint takes travel and heading; all others must hang from it.
+    """
+    there = np.linalg.norm(skeleton.rest_translation_m[0]) < 1e-3 * standing.height_m
+    level = abs(float(skeleton.rest_rotation_xyzw[0] @ IDENTITY_XYZW)) > 1.0 - 1e-9
+    turned = abs(float(standing.turn_xyzw @ IDENTITY_XYZW)) < 1.0 - 1e-6
+    near = np.linalg.norm(standing.shift_m) < 0.05 * standing.height_m
+    alone = bool((skeleton.parents[1:] >= 0).all()) and len(skeleton) > 1
+    return bool(there and level and near and alone and not turned)
 
 
 def grounded_skeleton(skeleton: Skeleton, standing: Standing) -> Skeleton:

@@ -88,7 +88,7 @@ def found_ground(
     went, would_go = (float(np.linalg.norm(way[-1] - way[0])) for way in (pelvis_m[:, ::2], slid))
     if travels is None:
         travels = went > FAR * leg_m or (cyclic and would_go > FAR * leg_m)
-    treadmill = travels and went < 0.25 * would_go
+    treadmill = cyclic and travels and went < 0.25 * would_go
     pelvis_m = pelvis_m.copy()
     if treadmill:
         pelvis_m[:, ::2] += slid

@@ -82,6 +82,28 @@ class Imported:
         known = ", ".join(a.name for a in self.animations) or "no animation"
         raise fault(self.path, "clip", f"one of {known}", "none given" if name is None else name)
 
+    def part(self, animation: Animation, start_s: float | None, end_s: float | None) -> Animation:
+        """Return the part of an animation between two times, at least two frames.
+
+        Raises
+        ------
+        ImportedFileError
+            If less than that lies between them.
+        """
+        rate_hz, last = animation.rate_hz, len(animation.rotation_xyzw) - 1
+        first = 0 if start_s is None else round(start_s * rate_hz)
+        final = last if end_s is None else min(round(end_s * rate_hz), last)
+        if final - first < 1:
+            span = f"{first / rate_hz:.2f} to {final / rate_hz:.2f} s"
+            within = f"a start before an end within {animation.duration_s:.2f} s"
+            raise fault(self.path, f"clip {animation.name!r}", within, span)
+        rows = slice(first, final + 1)
+        return replace(
+            animation,
+            rotation_xyzw=animation.rotation_xyzw[rows],
+            translation_m=animation.translation_m[rows],
+        )
+
 
 def fault(path: Path, place: str, expected: str, found: object) -> ImportedFileError:
     """Return the error for a file: where in it, what was expected, what was found."""
@@ -229,8 +251,3 @@ def checked_unit(path: Path, unit_m: float) -> float:
     if not (np.isfinite(unit_m) and unit_m > 0.0):
         raise fault(path, "unit", "a positive number of metres", unit_m)
     return unit_m
-
-
-def with_notes(imported: Imported, *notes: str) -> Imported:
-    """Return what was imported, with more notes."""
-    return replace(imported, notes=(*imported.notes, *notes))

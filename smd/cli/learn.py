@@ -95,13 +95,18 @@ def learn(
     kept = [known.name for known in start.actions] if there or base is not None else []
     if action in kept and not replace:
         require_new(start, action)
+    before = next((known for known in start.actions if known.name == action), None)
     shelf, shown = clip_source(action, clip, (start, shipped))
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     files = list(reading.recording_files(recordings))
     doodles = [_example(file, options, device) for file in files]
     new, learned = _learned(action, files, doodles, figure_height)
     new = dataclasses.replace(
-        new, travels=shown.travels, cyclic=shown.cyclic, description=description
+        new,
+        travels=shown.travels,
+        cyclic=shown.cyclic,
+        description=description or (before.description if before and action in kept else ""),
+        rest=before.rest if before and action in kept else "",
     )
     report = [*_report(new, learned), *_rests(files, doodles, figure_height)]
     performed = dataclasses.replace(shelf.clip(shown.name), name=action)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import reading
+from smd.cli import library_making, reading
 
 if TYPE_CHECKING:
     from smd.recognition.action import Action
@@ -22,6 +23,10 @@ def _library() -> None:
     pass
 
 
+app.command("new")(library_making.new)
+app.command("import")(library_making.import_)
+
+
 @app.command("list")
 def list_(
     library: reading.LibraryFolder = None,
@@ -29,7 +34,7 @@ def list_(
         bool, typer.Option("--json", help="Print a JSON list and nothing else.")
     ] = False,
 ) -> None:
-    """List the actions, how each is drawn and what it does."""
+    """List the actions, what each does and how it is drawn."""
     import smd
 
     actions = smd.load_library(library).actions
@@ -46,14 +51,20 @@ def list_(
         ]
         typer.echo(json.dumps(rows, indent=1))
         return
+    width = max((len(action.name) for action in actions), default=0)
     for action in actions:
-        typer.echo("\n".join(_lines(action)))
+        drawn = action.description or ("not drawn" if action.pattern is None else "")
+        typer.echo(f"{action.name:{width}}  {_manner(action):17}  {drawn}".rstrip())
+    typer.echo(f"{reading.count(len(actions), 'action')}; smd library show ACTION says more")
 
 
 @app.command()
 def show(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="The action's name.")],
     library: reading.LibraryFolder = None,
+    picture: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Draw gesture and clip: PICTURE.png")
+    ] = None,
 ) -> None:
     """Show an action: its gesture, its clip, and what it was learned from."""
     import smd
@@ -61,7 +72,12 @@ def show(
     shelf = smd.load_library(library)
     known = shelf.action(action)
     typer.echo("\n".join(_lines(known)))
-    typer.echo(f"    clip: {shelf.clip_files[action]}")
+    clip, credit = shelf.clip(action), shelf.credit(action)
+    typer.echo(
+        f"    clip: {shelf.clip_files[action]}, {clip.duration_s:.2f} s, {clip.travel_m:.2f} m"
+    )
+    if credit.author or credit.licence:
+        typer.echo(f"    by {credit.author or 'nobody named'}, {credit.licence or 'no licence'}")
     if known.exemplar is not None:
         examples = reading.count(len(known.exemplar), "example")
         typer.echo(f"    verified against {examples}: {shelf.exemplar_files[action]}")
@@ -69,6 +85,11 @@ def show(
         typer.echo(f"    learned from: {', '.join(known.learned_from)}")
     elif known.pattern is not None:
         typer.echo("    written by hand")
+    if picture is not None:
+        from exporters.action_picture import write_action_picture
+
+        write_action_picture(shelf, action, picture)
+        typer.echo(f"    drawn: {picture}")
 
 
 @app.command()
@@ -96,10 +117,14 @@ def check(library: reading.LibraryFolder = None) -> None:
         raise typer.Exit(3)
 
 
+def _manner(action: Action) -> str:
+    """Return how an action moves."""
+    return f"{'travels' if action.travels else 'in place'}{', cyclic' if action.cyclic else ''}"
+
+
 def _lines(action: Action) -> Iterator[str]:
     """Yield what an action does and how it is drawn."""
-    manner = "travels" if action.travels else "in place"
-    yield f"{action.name}  ({manner}{', cyclic' if action.cyclic else ''})"
+    yield f"{action.name}  ({_manner(action)})"
     if action.description:
         yield f"    {action.description}"
     if action.pattern:
