@@ -32,8 +32,8 @@ def partners(source: BodyPlan, target: BodyPlan) -> dict[int, int]:
     CharacterError
         If a limb of the target has no partner, or there are limbs of a kind that it lacks.
     """
-    lacking = [_called(limb) for limb in target.limbs if _partner(limb, target, source) is None]
-    over = [_called(limb) for limb in source.limbs if _partner(limb, source, target) is None]
+    lacking = [_called(x, target) for x in target.limbs if _partner(x, target, source) is None]
+    over = [_called(x, source) for x in source.limbs if _partner(x, source, target) is None]
     if lacking or over:
         missing = f"the clip lacks {', '.join(lacking)}" if lacking else ""
         more = f"the character lacks {', '.join(over)}" if over else ""
@@ -50,8 +50,9 @@ def partners(source: BodyPlan, target: BodyPlan) -> dict[int, int]:
     return found
 
 
-def _called(limb: LimbPlan) -> str:
-    return f"a {limb.side} {limb.kind}"
+def _called(limb: LimbPlan, plan: BodyPlan) -> str:
+    alike = [x for x in plan.limbs if (x.kind, x.side) == (limb.kind, limb.side)]
+    return f"{'a' if alike.index(limb) == 0 else 'another'} {limb.side} {limb.kind}"
 
 
 def _partner(limb: LimbPlan, own: BodyPlan, other: BodyPlan) -> LimbPlan | None:
@@ -59,7 +60,7 @@ def _partner(limb: LimbPlan, own: BodyPlan, other: BodyPlan) -> LimbPlan | None:
     alike = [x for x in own.limbs if (x.kind, x.side) == (limb.kind, limb.side)]
     others = [x for x in other.limbs if (x.kind, x.side) == (limb.kind, limb.side)]
     at = alike.index(limb)
-    return others[at] if len(others) == len(alike) else None
+    return others[at] if at < len(others) else None
 
 
 def _along(source: tuple[int, ...], target: tuple[int, ...]) -> Iterator[tuple[int, int]]:

@@ -13,7 +13,7 @@ import numpy as np
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import heading_rad, inverse, multiply, quaternion_about, rotate
 
-FAR = 0.7
+FAR = 0.5
 """Way over the ground, in leg lengths, from which a movement is taken to travel."""
 
 CLOSED_STEPS = 1.6

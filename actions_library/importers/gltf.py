@@ -157,8 +157,9 @@ def _joints(file: GltfFile, nodes: Nodes) -> list[int]:
     wanted: set[int] = set()
     for i in range(file.count("skins")):
         found = file.indices(file.item("skins", i), "joints", "nodes", f"skins[{i}]")
-        if len(set(found)) != len(found):
-            raise fault(file.path, f"skins[{i}].joints", "each node once", "one twice")
+        if len(set(found)) != len(found) or not found:
+            expected, what = "nodes, each once", "one twice" if found else "none"
+            raise fault(file.path, f"skins[{i}].joints", expected, what)
         wanted |= set(found)
     if not wanted:
         for i in range(file.count("animations")):

@@ -16,7 +16,14 @@ import numpy as np
 from actions_library.importers.imported import MOST_BYTES, fault
 from smd.geometry.arrays import FloatArray
 
-_COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_COMPONENTS = {
+    "5120": "i1",
+    "5121": "u1",
+    "5122": "<i2",
+    "5123": "<u2",
+    "5125": "<u4",
+    "5126": "<f4",
+}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MOST_VALUES = 1 << 26
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
@@ -127,16 +134,18 @@ class GltfFile:
         for channel in channels:
             at: Any = channel.get("sampler") if isinstance(channel, dict) else None
             good = type(at) is int and 0 <= at < len(samplers) and isinstance(samplers[at], dict)
-            if not good or not isinstance(channel.get("target"), dict):
+            target = channel.get("target") if good else None
+            if not isinstance(target, dict):
                 raise fault(self.path, where, "channels with a sampler and a target", repr(at)[:40])
-            yield samplers[at], channel["target"]
+            yield samplers[at], {**target, "path": str(target.get("path"))}
 
     def accessor(self, i: Any, where: str) -> FloatArray:
         """Return an accessor's values ``(count, width)``, normalised integers as shares."""
         item = self.item("accessors", self.index(i, "accessors", where))
         where = f"accessors[{i}]"
         count = self._whole(item, "count", where)
-        kind, component = item.get("type"), item.get("componentType")
+        # As text, since a key may be anything, a list too.
+        kind, component = str(item.get("type")), str(item.get("componentType"))
         if kind not in _WIDTHS or component not in _COMPONENTS:
             raise fault(self.path, where, "a known type", f"{kind!r} of {component!r}"[:60])
         width, dtype = _WIDTHS[kind], np.dtype(_COMPONENTS[component])
@@ -160,8 +169,8 @@ class GltfFile:
             raise fault(self.path, where, "indices and values", "something else")
         at, new = parts
         count = self._whole(sparse, "count", where)
-        component = at.get("componentType")  # type: ignore[union-attr]
-        if count > len(values) or component not in (5121, 5123, 5125):
+        component = str(at.get("componentType"))  # type: ignore[union-attr]
+        if count > len(values) or component not in ("5121", "5123", "5125"):
             raise fault(self.path, where, f"at most {len(values)} unsigned indices", count)
         kind = np.dtype(_COMPONENTS[component])
         view = at.get("bufferView"), new.get("bufferView")  # type: ignore[union-attr]

@@ -191,7 +191,8 @@ def _influences(
     if all_indices.shape != all_weights.shape or len(all_indices) != count:
         raise fault(file.path, where, f"joints and weights of {count} points", len(all_indices))
     # Some exporters divide by a sum of zero: such a point goes with its first joint.
-    return strongest(all_indices, np.nan_to_num(all_weights, posinf=0.0, neginf=0.0))
+    weights_01 = np.clip(np.nan_to_num(all_weights, posinf=0.0, neginf=0.0), 0.0, 1.0)
+    return strongest(all_indices, weights_01)
 
 
 def _colors(

@@ -14,8 +14,11 @@ from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError, ImportedFileError
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import (
+    inverse,
     matrix_from_quaternion,
+    multiply,
     quaternion_from_matrix,
+    rotate,
     sign_continuous,
 )
 
@@ -156,14 +159,11 @@ def rigid(
     rotation = quaternion_from_matrix(axes)
     position = world[..., :3, 3]
     local_q, local_t = rotation.copy(), position.copy()
-    matrices = matrix_from_quaternion(rotation)
     for j, parent in enumerate(parents):
         if parent >= 0:
-            back = np.swapaxes(matrices[..., parent, :, :], -1, -2)
-            local_t[..., j, :] = np.einsum(
-                "...ab,...b->...a", back, position[..., j, :] - position[..., parent, :]
-            )
-            local_q[..., j, :] = quaternion_from_matrix(back @ matrices[..., j, :, :])
+            back = inverse(rotation[..., parent, :])
+            local_t[..., j, :] = rotate(back, position[..., j, :] - position[..., parent, :])
+            local_q[..., j, :] = multiply(back, rotation[..., j, :])
     if local_q.ndim == 3:
         local_q = sign_continuous(local_q)
     return local_q, local_t
@@ -215,7 +215,7 @@ def strongest(indices: IntArray, weights: FloatArray) -> tuple[IntArray, FloatAr
     rows = np.arange(p)[:, None]
     indices, weights = indices[rows, order], np.maximum(weights[rows, order], 0.0)
     total = weights.sum(axis=1, keepdims=True)
-    weights = np.where(total > 0.0, weights / np.maximum(total, 1e-30), [1.0, 0.0, 0.0, 0.0])
+    weights = np.where(total > 1e-9, weights / np.maximum(total, 1e-9), [1.0, 0.0, 0.0, 0.0])
     return np.where(weights > 0.0, indices, 0).astype(np.int64), weights
 
 

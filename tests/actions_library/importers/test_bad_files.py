@@ -1,0 +1,251 @@
+"""Files that are damaged, or that mean harm: one line, little memory, little time."""
+
+from __future__ import annotations
+
+import copy
+import json
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from actions_library.importers import import_file
+from smd.errors import ImportedFileError
+from tests.actions_library.importers.test_bvh import ARM
+from tests.actions_library.importers.test_gltf import document
+
+
+def refused(path: Path, *said: str, **options) -> None:
+    with pytest.raises(ImportedFileError) as error:
+        import_file(path, **options)
+    message = str(error.value)
+    assert str(path) in message
+    assert "expected" in message and "found" in message and "\n" not in message
+    for words in said:
+        assert words in message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("HIERARCHY", "HIERARCHIE", "line 1"),
+        ("ROOT Hips", "JOINT Hips", "line 2"),
+        ("JOINT Neck", "ROOT Neck", "line 6"),
+        ("OFFSET 0 1.5 0", "OFFSET 0 1.5", "line 8"),
+        ("OFFSET 0 1.5 0", "OFFSET 0 nan 0", "line 8"),
+        ("CHANNELS 3", "CHANNELS 4", "line 9"),
+        ("CHANNELS 3 Yrotation", "CHANNELS 3 Wrotation", "line 9"),
+        ("CHANNELS 3", "CHANNELS -3", "line 9"),
+        ("\t\tEnd Site\n\t\t{\n\t\t\tOFFSET 0 2.5e-1 0\n\t\t}\n", "\t\tTail\n", "line 10"),
+        ("Frames: 2", "Frames: 3", "3 frames"),
+        ("Frames: 2", "Frames: 0", "Frames"),
+        ("Frames: 2", "Frames: 1e99", "Frames"),
+        ("Frames: 2", "Frames: two", "line 17"),
+        ("Frame Time: 0.04", "Frame Time: 0", "Frame Time"),
+        ("Frame Time: 0.04", "Frame Time: -1", "Frame Time"),
+        ("1 2 3 90", "1 2 90", "line 20"),
+        ("1 2 3 90", "1 2 nan 90", "frame 1"),
+        ("1 2 3 90", "1 2 three 90", "MOTION"),
+        ("MOTION", "EMOTION", "MOTION"),
+        ("\t}\n}\nMOTION", "\t}\nMOTION", "MOTION"),
+    ],
+)
+def test_a_bvh_is_refused_with_the_place(tmp_path, old, new, said):
+    assert old in ARM
+    path = tmp_path / "a.bvh"
+    path.write_text(ARM.replace(old, new))
+    refused(path, said)
+
+
+def test_a_bvh_of_endless_braces_or_two_names_alike(tmp_path):
+    path = tmp_path / "a.bvh"
+    path.write_text("HIERARCHY\nROOT a\n" + "{\nOFFSET 0 0 0\nJOINT a\n" * 100_000 + "MOTION\n")
+    refused(path, "brace")
+    path.write_text(ARM.replace("Neck", "Hips"))
+    assert import_file(path).skeleton.joints == ("Hips", "Hips_2", "Hips_end")
+
+
+def test_a_bone_without_length_is_a_bone(tmp_path):
+    path = tmp_path / "a.bvh"
+    path.write_text(ARM.replace("OFFSET 0 1.5 0", "OFFSET 0 0 0"))
+    assert len(import_file(path).skeleton) == 3
+
+
+CHANGES = {
+    "no glTF 2": (lambda d: d["asset"].update(version="1.0"), "asset.version"),
+    "a cycle of nodes": (lambda d: d["nodes"][1].update(children=[0]), "tree"),
+    "a node twice": (lambda d: d["nodes"][2].update(children=[1]), "tree"),
+    "a child that is not": (lambda d: d["nodes"][0].update(children=[9]), "children"),
+    "a negative child": (lambda d: d["nodes"][0].update(children=[-1]), "children"),
+    "a NaN place": (lambda d: d["nodes"][1].update(translation=[0, float("nan"), 0]), "nodes[1]"),
+    "a zero scale": (lambda d: d["nodes"][0].update(scale=[0, 1, 1]), "scales above zero"),
+    "a joint twice": (lambda d: d["skins"][0].update(joints=[0, 0]), "skins[0]"),
+    "no inverse": (lambda d: d["skins"][0].update(inverseBindMatrices=4), "matrices"),
+    "a negative count": (lambda d: d["accessors"][4].update(count=-3), "accessors[4].count"),
+    "a huge count": (lambda d: d["accessors"][4].update(count=10**12), "accessors[4]"),
+    "values outside": (lambda d: d["accessors"][4].update(byteOffset=4000), "accessors[4]"),
+    "a view outside": (lambda d: d["bufferViews"][0].update(byteLength=10**9), "bufferViews[0]"),
+    "a negative offset": (lambda d: d["bufferViews"][0].update(byteOffset=-1), "byteOffset"),
+    "a short buffer": (lambda d: d["buffers"][0].update(byteLength=10**9), "buffers[0]"),
+    "a path out": (lambda d: d["buffers"][0].update(uri="../../etc/passwd"), "same folder"),
+    "an absolute path": (lambda d: d["buffers"][0].update(uri="/etc/passwd"), "same folder"),
+    "a hidden path out": (lambda d: d["buffers"][0].update(uri="%2e%2e/secret"), "same folder"),
+    "an address": (lambda d: d["buffers"][0].update(uri="http://a.b/c"), "same folder"),
+    "no base64": (
+        lambda d: d["buffers"][0].update(uri="data:application/octet-stream;base64,@@"),
+        "base64",
+    ),
+    "another interpolation": (
+        lambda d: d["animations"][0]["samplers"][0].update(interpolation="WILD"),
+        "LINEAR",
+    ),
+    "too few values": (lambda d: d["accessors"][5].update(count=2), "rotation"),
+    "no joints of points": (
+        lambda d: d["meshes"][0]["primitives"][0]["attributes"].pop("JOINTS_0"),
+        "JOINTS_0",
+    ),
+    "nothing that moves": (lambda d: (d.pop("skins"), d.pop("animations")), "skin"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_gltf_is_refused_with_the_place(tmp_path, change):
+    whole = document()
+    alter, said = CHANGES[change]
+    alter(whole)
+    path = tmp_path / "a.gltf"
+    path.write_text(json.dumps(whole))
+    refused(path, said)
+
+
+def test_a_link_out_of_the_folder_is_no_way_out(tmp_path):
+    (tmp_path / "secret.bin").write_bytes(bytes(4000))
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    (inside / "a.bin").symlink_to(tmp_path / "secret.bin")
+    whole = document()
+    whole["buffers"][0]["uri"] = "a.bin"
+    (inside / "a.gltf").write_text(json.dumps(whole))
+    refused(inside / "a.gltf", "same folder")
+
+
+def test_keys_that_are_no_numbers_or_go_back_are_refused(tmp_path):
+    import base64
+
+    for at, value, said in ((1, float("nan"), "finite keys"), (1, 2.0, "increase")):
+        whole = document()
+        head, _, text = whole["buffers"][0]["uri"].partition(",")
+        data = bytearray(base64.b64decode(text))
+        struct.pack_into("<f", data, whole["bufferViews"][4]["byteOffset"] + 4 * at, value)
+        whole["buffers"][0]["uri"] = head + "," + base64.b64encode(bytes(data)).decode()
+        path = tmp_path / "a.gltf"
+        path.write_text(json.dumps(whole))
+        refused(path, said)
+
+
+@pytest.mark.parametrize(
+    ("name", "data"),
+    [
+        ("deep.gltf", b"[" * 100_000),
+        ("deep2.gltf", b'{"a":' * 100_000),
+        ("empty.gltf", b""),
+        ("list.gltf", b"[]"),
+        ("wrong.glb", b"FBX " + bytes(100)),
+        ("short.glb", b"glTF" + struct.pack("<II", 2, 4000) + bytes(20)),
+        ("chunk.glb", b"glTF" + struct.pack("<IIII", 2, 28, 4000, 0x4E4F534A) + bytes(8)),
+        ("empty.usdc", b""),
+        ("wrong.usda", b"#usda 9.0\nthis is no USD"),
+        ("wrong.usdc", b"PXR-USDC" + bytes(200)),
+        ("wrong.usdz", b"PK\x03\x04" + bytes(60)),
+        ("nothing.usda", b'#usda 1.0\ndef Xform "A" {}\n'),
+        ("picture.png", bytes(20)),
+    ],
+)
+def test_other_things_are_refused(tmp_path, name, data):
+    path = tmp_path / name
+    path.write_bytes(data)
+    refused(path)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    refused(tmp_path / "none.bvh", "none")
+    refused(tmp_path, "none")
+
+
+def test_an_archive_that_would_fill_the_memory_or_leave_its_folder(tmp_path):
+    path = tmp_path / "a.usdz"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("a.usda", b"#usda 1.0\n" + bytes(50_000_000))
+    assert path.stat().st_size < 1_000_000
+    refused(path, "compressed")
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+        archive.writestr("../a.usda", b"#usda 1.0\n")
+    refused(path, "inside it")
+
+
+@pytest.mark.parametrize("options", [{"up": "w"}, {"unit_m": 0.0}, {"unit_m": float("nan")}])
+def test_options_that_mean_nothing(tmp_path, options):
+    path = tmp_path / "a.bvh"
+    path.write_text(ARM)
+    refused(path, **options)
+
+
+def _places(value, path=()):
+    """Yield the way to every value in a document."""
+    items = value.items() if isinstance(value, dict) else enumerate(value)
+    for key, inner in items:
+        yield (*path, key)
+        if isinstance(inner, dict | list):
+            yield from _places(inner, (*path, key))
+
+
+MANY = settings(
+    max_examples=150,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+ODD = st.sampled_from([None, -1, 0, 10**9, 1.5, float("nan"), "x", [], {}, [0], True])
+
+
+@MANY
+@given(data=st.data())
+def test_no_change_to_a_gltf_is_a_traceback(tmp_path, data):
+    whole = copy.deepcopy(document())
+    way = data.draw(st.sampled_from(list(_places(whole))))
+    inner = whole
+    for key in way[:-1]:
+        inner = inner[key]
+    inner[way[-1]] = data.draw(ODD)
+    path = tmp_path / "a.gltf"
+    path.write_text(json.dumps(whole))
+    try:
+        imported = import_file(path)
+    except ImportedFileError as error:
+        assert "\n" not in str(error)
+        return
+    for animation in imported.animations:
+        assert np.isfinite(animation.rotation_xyzw).all()
+
+
+@MANY
+@given(data=st.data())
+def test_no_change_to_a_bvh_is_a_traceback(tmp_path, data):
+    words = ARM.split(" ")
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(words) - 1))
+        words[at] = data.draw(
+            st.sampled_from(["", "0", "-1", "1e999", "{", "}", "x", "nan", "Frames:"])
+        )
+    path = tmp_path / "a.bvh"
+    path.write_text(" ".join(words))
+    try:
+        imported = import_file(path)
+    except ImportedFileError as error:
+        assert "\n" not in str(error)
+        return
+    for animation in imported.animations:
+        assert np.isfinite(animation.rotation_xyzw).all()
