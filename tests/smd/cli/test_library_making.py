@@ -141,13 +141,14 @@ def test_the_knight_acts_out_a_doodle(run_smd, shared_data, tmp_path):
     from smd.synthetic.strokes import simulated_person
     from smd.synthetic.takes import Take
 
-    knight, folder = shared_data / "clips" / "gltf" / "Knight.glb", tmp_path / "knight"
-    assert run_smd("library", "new", folder, "--character", knight)[0] == 0
-    clips = {"walk": "Walking_A", "run": "Running_A", "wave": "Cheer", "sit_down": "Sit_Floor_Down"}
-    for action, clip in clips.items():
-        assert (
-            run_smd("library", "import", folder, knight, "--clip", clip, "--action", action)[0] == 0
-        )
+    files_of, folder = shared_data / "clips" / "gltf", tmp_path / "knight"
+    made = run_smd("library", "new", folder, "--character", files_of / "Knight.glb")
+    assert (made[0], "idles with: Idle" in made[1]) == (0, True)
+    clips = {"walk": ("MovementBasic", "Walking_B"), "pick_up": ("General", "PickUp")}
+    for action, (pack, clip) in clips.items():
+        source = files_of / f"Med_{pack}.glb"
+        asked = ["--clip", f"Rig_Medium|{clip}", "--action", action]
+        assert run_smd("library", "import", folder, source, *asked)[0] == 0
         files = []
         for k in range(3):
             rng = np.random.default_rng([900, k])
