@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from smd.doodle import Doodle, Dropout, Recording
+from smd.errors import RecordingError
 from smd.formats import aframe, native, tum
 from smd.formats.checks import LATEST_S, checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
@@ -33,7 +36,8 @@ def read_recording(
 
     The content decides which format it is. Rows where tracking was lost (`Dropout`) are left
     out; a loss of more than 0.25 s ends one doodle and begins the next, a shorter one is left
-    for smoothing to bridge.
+    for smoothing to bridge. A device that was never tracked beside others that were is left out,
+    and is one dropout.
 
     Parameters
     ----------
@@ -82,7 +86,19 @@ def read_recording(
         drawn, lost = _doodles(name, track, of_numbers, conversion, zero_s)
         doodles += drawn
         dropouts += lost
+    if not doodles:
+        raise _never_tracked(name, chosen[0], valid[0])
     return Recording(tuple(doodles), name, tuple(dropouts), metadata)
+
+
+def _never_tracked(name: str, track: Track, valid: BoolArray) -> RecordingError:
+    """Return the error for a device of which nothing is left."""
+    device, numbers = f"device {track.device!r}", np.count_nonzero(valid)
+    if numbers < 2:
+        found = f"{numbers} among {len(valid)} rows"
+        return fault(name, device, "at least two poses that are numbers", found)
+    expected = f"a stretch of at least {SHORTEST_LOSS_S:g} s without loss of tracking"
+    return fault(name, device, expected, "none")
 
 
 def _content(text: str, name: str) -> Content:
@@ -112,17 +128,10 @@ def _chosen(name: str, tracks: tuple[Track, ...], device: str | None) -> tuple[T
 def _doodles(
     name: str, track: Track, valid: BoolArray, conversion: Conversion, zero_s: float
 ) -> tuple[list[Doodle], tuple[Dropout, ...]]:
-    """Return the doodles of one device, and where it was lost."""
+    """Return the doodles of one device, none where it was never tracked, and where it was lost."""
     time_s = track.time_s - zero_s
     position_m, orientation_xyzw = conversion.poses(track.position, normalized(track.quaternion))
     tracking = find_dropouts(track.device, time_s, position_m, orientation_xyzw, valid)
-    if not any(len(stretch) > 1 for stretch in tracking.stretches):
-        raise fault(
-            name,
-            f"device {track.device!r}",
-            f"a stretch of at least {SHORTEST_LOSS_S:g} s without loss of tracking",
-            "none",
-        )
     return [
         Doodle(
             time_s=time_s[rows],
@@ -132,4 +141,5 @@ def _doodles(
             drawing=track.drawing[rows],
         )
         for rows in tracking.stretches
+        if len(rows) > 1
     ], tracking.dropouts

@@ -41,6 +41,7 @@ def read_text(path: Path, name: str) -> str:
         raise fault(name, "", "a file that can be read", str(error.strerror)) from error
     if _is_utf16(data):
         raise fault(name, "", "text in UTF-8", "UTF-16; save it again as UTF-8")
+    data = data.rstrip(b"\0")  # what a power cut may leave at the end of a file that grew
     if b"\0" in data:
         raise fault(name, "", "text", "binary data")
     try:
