@@ -74,7 +74,7 @@ class OpenVRSource:
         self._connected = b""
         self._serials: dict[int, str] = {}
         self._with_trigger: frozenset[int] = frozenset()
-        self._frame()  # whatever is loaded or built on first use is not waited for in a take
+        quaternion_from_matrix(np.eye(3))  # what it loads when first used would delay a frame
 
     def devices(self) -> tuple[Device, ...]:
         """Return headset, controllers and trackers, those that were switched off included."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 
 from smd.capture.recorder import Recorder
@@ -59,14 +59,15 @@ class Progress:
 def record(
     frames: Iterable[Frame],
     recorder: Recorder,
-    names: Mapping[str, str],
+    serials: Container[str],
     *,
     hold_to_draw: bool = False,
     seconds: float = math.inf,
 ) -> Iterator[Progress]:
     """Record frames, and yield how it goes after each.
 
-    A device of which a frame says nothing, or no pose, gets a row that says that it was lost.
+    A device without a pose gets a row that says that it was lost; one of which a frame says
+    nothing gets none.
 
     Parameters
     ----------
@@ -74,8 +75,8 @@ def record(
         From a source.
     recorder
         Where they go.
-    names
-        Of the devices to record, by serial.
+    serials
+        Serials of the devices to record.
     hold_to_draw
         Whether a device draws only while its trigger is held (one without a trigger: while any
         trigger is). Otherwise all is drawn.
@@ -88,7 +89,7 @@ def record(
         start_s = frame.time_s if start_s is None else start_s
         if frame.time_s - start_s > seconds + 1e-9:
             return
-        rows = rows_of(frame, names, hold_to_draw=hold_to_draw)
+        rows = rows_of(frame, serials, hold_to_draw=hold_to_draw)
         recorder.write(frame.time_s, rows)
         progress.time_s = frame.time_s - start_s
         progress.frames += 1
@@ -102,14 +103,13 @@ def record(
 
 
 def rows_of(
-    frame: Frame, names: Mapping[str, str], *, hold_to_draw: bool
+    frame: Frame, serials: Container[str], *, hold_to_draw: bool
 ) -> dict[str, tuple[Pose | None, bool]]:
-    """Return what a frame says of each device: its pose, and whether it draws."""
-    by_serial = {sample.serial: sample for sample in frame.samples}
+    """Return what a frame says of some devices: the pose of each, and whether it draws."""
     any_held = any(sample.trigger for sample in frame.samples)
     rows = {}
-    for serial in names:
-        sample = by_serial.get(serial)
-        held = any_held if sample is None or sample.trigger is None else sample.trigger
-        rows[serial] = (sample.pose if sample else None, held or not hold_to_draw)
+    for serial, pose, trigger, _ in frame.samples:
+        if serial in serials:
+            held = any_held if trigger is None else trigger
+            rows[serial] = (pose, held or not hold_to_draw)
     return rows

@@ -17,8 +17,10 @@ from smd.cli import (
     learn,
     library,
     parse,
+    play,
     record,
     render,
+    teach,
 )
 
 app = typer.Typer(
@@ -47,6 +49,8 @@ app.command()(animate.animate)
 app.command()(render.render)
 app.command()(devices.devices)
 app.command()(record.record)
+app.command()(play.play)
+app.command()(teach.teach)
 app.command()(learn.learn)
 app.command()(calibrate.calibrate)
 app.add_typer(library.app, name="library", help="What can be performed.")

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from smd.cli.app import main
+from smd.synthetic.strokes import simulated_person
+from smd.synthetic.takes import Take
 from tests.standin import runtime
 from tests.standin.runtime import Played, Scene
 
@@ -55,3 +57,12 @@ def circling(time_s):
 def hand(serial="LHR-1", kind=runtime.CONTROLLER, role=runtime.LEFT, seconds=3.0, **more) -> Played:
     time_s = np.arange(0.0, seconds, 1e-3)
     return Played(kind, role, serial, time_s, *circling(time_s), **more)
+
+
+def played(*actions: str, seed: int = 3, pause_s: float = 0.7):
+    """A doodle of a simulated person who plays some actions in a row."""
+    rng = np.random.default_rng(seed)
+    take = Take(simulated_person(rng), rng).pause(pause_s)
+    for action in actions:
+        take.play(action).pause(pause_s)
+    return take.doodle()
