@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from smd.doodle import Doodle, Dropout, Recording
 from smd.errors import RecordingError
-from smd.formats import aframe, native, tum
+from smd.formats import aframe, bsor, motive, native, tum, usd_xform
 from smd.formats.checks import LATEST_S, checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
 from smd.formats.frame import Conversion, SourceFrame
@@ -17,14 +18,21 @@ from smd.formats.tracks import Content, Track, fault, shown
 from smd.geometry.arrays import BoolArray
 from smd.geometry.rotations import normalized
 
-FORMATS = (aframe, native, tum)
-"""Asked in this order whether a file is theirs."""
+FORMATS = (aframe, motive, native, tum)
+"""Asked in this order whether a text is theirs."""
 
-SUFFIXES = (".csv", ".json", ".tum")
+BINARY: dict[str, Callable[[Path, str], Content]] = {
+    ".bsor": bsor.read,
+    **dict.fromkeys(usd_xform.SUFFIXES, usd_xform.read),
+}
+"""Formats that are no text of their own are known by their suffix."""
+
+SUFFIXES = (".csv", ".json", ".tum", ".bsor")
 """Suffixes of recordings: what a folder is searched for."""
 
-READABLE = (*SUFFIXES, ".txt")
-"""Suffixes that are read when a file is named: text may be a table of poses, or prose."""
+READABLE = (*SUFFIXES, ".txt", *usd_xform.SUFFIXES)
+"""Suffixes that are read when a file is named: text may be a table of poses, or prose, and USD a
+recording, or an animation that was made of one."""
 
 _HEAD = 65_536  # characters by which formats know their files
 
@@ -42,7 +50,8 @@ def read_recording(
     Parameters
     ----------
     path
-        A native or plain CSV, a TUM trajectory, or A-Frame motion capture (JSON).
+        A native or plain CSV, a TUM trajectory, A-Frame motion capture (JSON), an OptiTrack Motive
+        CSV, a Beat Saber Open Replay, or USD with animated transforms.
     frame
         What the numbers mean, where the format's own answer is not right.
     device
@@ -66,7 +75,8 @@ def read_recording(
     if path.suffix.lower() not in READABLE:
         suffix = repr(path.suffix) if path.suffix else "no suffix"
         raise fault(name, "", f"a file with suffix {' '.join(READABLE)}", suffix)
-    content = _content(read_text(path, name), name)
+    in_binary = BINARY.get(path.suffix.lower())
+    content = in_binary(path, name) if in_binary else _content(read_text(path, name), name)
     asked = frame or SourceFrame()
     if content.order_is_given and asked.quaternion not in (None, content.frame.quaternion):
         raise fault(
