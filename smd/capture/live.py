@@ -7,16 +7,17 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from laban import Effort, EffortModel, RigidMotion
 from laban.effort import AXES
 from laban.windows import WINDOW_S, EffortStream
 from smd.capture.source import Pose
 from smd.formats.dropouts import LONGEST_BRIDGE_S
-from smd.formats.frame import Mount, SourceFrame
+from smd.formats.frame import Mount
+from smd.geometry.rotations import multiply, rotate
 from smd.recognition import Recognizer
 from smd.recognition.recognizer import Span
-from smd.recognition.smoothing_stream import SmoothingStream
 
 MOST_WINDOWS = 256
 """Windows of Effort that are kept for a phrase that is not decided yet: a minute of them."""
@@ -64,7 +65,8 @@ class LiveRecognition:
         self._recognizer = recognizer
         self._model = model
         self._names = names
-        self._mounted = SourceFrame(mount=mount).completed(SourceFrame.ours()).conversion()
+        self._lever_m = None if mount is None else mount.lever_m
+        self._turn_xyzw = None if mount is None else mount.tracker_from_prop_xyzw
         self._followers: dict[str, _Follower] = {}
 
     def push(self, time_s: float, rows: Mapping[str, tuple[Pose | None, bool]]) -> list[Decided]:
@@ -78,8 +80,7 @@ class LiveRecognition:
                 decided += follower.finish() if follower else []
                 follower = _Follower(self._names[serial], self._recognizer, self._model)
                 self._followers[serial] = follower
-            position, orientation = self._mounted.poses(np.array([pose[:3]]), np.array([pose[3:]]))
-            decided += follower.push(time_s, position[0], orientation[0], drawing)
+            decided += follower.push(time_s, *self._of_prop(pose[:3], pose[3:]), drawing)
         return decided
 
     def finish(self) -> list[Decided]:
@@ -88,37 +89,52 @@ class LiveRecognition:
         self._followers.clear()
         return decided
 
+    def _of_prop(
+        self, tracker_m: ArrayLike, world_from_tracker_xyzw: ArrayLike
+    ) -> tuple[ArrayLike, ArrayLike]:
+        """Return position and orientation of the prop on its tracker."""
+        if self._lever_m is None or self._turn_xyzw is None:
+            return tracker_m, world_from_tracker_xyzw
+        return (
+            np.asarray(tracker_m) + rotate(world_from_tracker_xyzw, self._lever_m),
+            multiply(world_from_tracker_xyzw, self._turn_xyzw),
+        )
+
 
 class _Follower:
-    """One device, from one loss to the next."""
+    """One device, from one loss to the next.
+
+    Effort is read one sample after the stream has looked, so that a phrase does not wait for it.
+    """
 
     def __init__(self, device: str, recognizer: Recognizer, model: EffortModel) -> None:
         self._device = device
-        self._spans = recognizer.stream()
-        self._smoothing = SmoothingStream()
+        self._unread: list[RigidMotion] = []
+        self._spans = recognizer.stream(self._unread.append)
         self._efforts = EffortStream(model)
         self._windows: deque[tuple[float, Effort]] = deque(maxlen=MOST_WINDOWS)
         self.last_s = -np.inf
 
     def push(
-        self, time_s: float, position_m: np.ndarray, orientation_xyzw: np.ndarray, drawing: bool
+        self, time_s: float, position_m: ArrayLike, orientation_xyzw: ArrayLike, drawing: bool
     ) -> list[Decided]:
         """Take one sample; return the phrases that it decides."""
         self.last_s = time_s
-        self._smoothing.push(time_s, position_m, orientation_xyzw)
-        self._read(self._smoothing.ready())
+        self._read()
         spans = self._spans.push(time_s, position_m, orientation_xyzw, drawing)
         return [self._decided(span) for span in spans]
 
     def finish(self) -> list[Decided]:
         """Return the phrases that were not decided yet."""
-        self._read(self._smoothing.finish())
-        return [self._decided(span) for span in self._spans.finish()]
+        spans = self._spans.finish()
+        self._read()
+        return [self._decided(span) for span in spans]
 
-    def _read(self, smoothed: tuple[np.ndarray, ...] | None) -> None:
-        """Read the Effort of the windows that new smoothed samples complete."""
-        if smoothed is not None:
-            self._windows.extend(self._efforts.push(RigidMotion(*smoothed)))
+    def _read(self) -> None:
+        """Read the Effort of the windows that new smoothed motion completes."""
+        for motion in self._unread:
+            self._windows.extend(self._efforts.push(motion))
+        self._unread.clear()
 
     def _decided(self, span: Span) -> Decided:
         """Return a span with the Effort of the windows in it, or of the nearest one."""

@@ -4,34 +4,35 @@ We are a background application: we neither draw in the headset nor start the ru
 those of the standing universe: metres, right-handed, Y up, the floor at 0; a device faces its own
 -Z and has its right at +X, so that each is turned half round its Y to become ours.
 
+What is done every frame is plain Python: with arrays of three rows, recording costs three times as
+much.
+
 References
 ----------
 .. [1] https://github.com/ValveSoftware/openvr/wiki/API-Documentation
+.. [2] S. W. Shepperd, "Quaternion from Rotation Matrix", Journal of Guidance and Control 1 (3),
+   1978.
 """
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from smd.capture.source import Device, Frame, Kind, Sample, Tracking
+from smd.capture.source import Device, Frame, Kind, Pose, Sample, Tracking
 from smd.errors import CaptureError
-from smd.formats.frame import Mount, SourceFrame
-from smd.geometry.arrays import FloatArray, IntArray
-from smd.geometry.rotations import quaternion_from_matrix
 
 if TYPE_CHECKING:
     import openvr
 
-FRAME = SourceFrame("y", "-z", "right", "m", "xyzw", Mount())
-
 _POSE = np.dtype(  # TrackedDevicePose_t of openvr.h
     {
         "names": ["matrix", "result", "valid", "connected"],
-        "formats": [("<f4", (3, 4)), "<i4", "?", "?"],
+        "formats": [("<f4", 12), "<i4", "?", "?"],
         "offsets": [0, 72, 76, 77],
         "itemsize": 80,
     }
@@ -70,11 +71,9 @@ class OpenVRSource:
         self._buffer = (self._vr.TrackedDevicePose_t * self._vr.k_unMaxTrackedDeviceCount)()
         self._poses = np.frombuffer(self._buffer, _POSE)  # a view: it changes with the buffer
         self._event = self._vr.VREvent_t()
-        self._conversion = FRAME.conversion()
         self._connected = b""
         self._serials: dict[int, str] = {}
         self._with_trigger: frozenset[int] = frozenset()
-        quaternion_from_matrix(np.eye(3))  # what it loads when first used would delay a frame
 
     def devices(self) -> tuple[Device, ...]:
         """Return headset, controllers and trackers, those that were switched off included."""
@@ -140,25 +139,17 @@ class OpenVRSource:
         time_s = self._ask()
         ok = self._vr.TrackingResult_Running_OK
         seen = self._poses["valid"] & (self._poses["result"] == ok)
-        rows = np.array([index for index in self._serials if seen[index]], dtype=np.int64)
-        poses = dict(zip(rows.tolist(), self._converted(rows).tolist(), strict=True))
         return Frame(
             time_s,
             tuple(
                 Sample(
                     serial,
-                    tuple(poses[index]) if index in poses else None,
+                    pose_of(self._poses["matrix"][index].tolist()) if seen[index] else None,
                     *(self._buttons(index) if index in self._with_trigger else ()),
                 )
                 for index, serial in self._serials.items()
             ),
         )
-
-    def _converted(self, rows: IntArray) -> FloatArray:
-        """Return the poses of some devices in our convention, ``(k, 7)``."""
-        world_from_device = self._poses["matrix"][rows].astype(np.float64)
-        turned = quaternion_from_matrix(world_from_device[:, :, :3])
-        return np.hstack(self._conversion.poses(world_from_device[:, :, 3], turned))
 
     def _buttons(self, index: int) -> tuple[bool, bool]:
         """Return whether trigger and grip are pressed."""
@@ -222,6 +213,27 @@ class OpenVRSource:
             return "away"
         ok = pose.eTrackingResult == self._vr.TrackingResult_Running_OK
         return "tracked" if pose.bPoseIsValid and ok else "lost"
+
+
+def pose_of(matrix: Sequence[float]) -> Pose:
+    """Return our pose of an OpenVR matrix: three rows of four, world from device.
+
+    Of the four ways to a quaternion that with the largest divisor is taken [2]_.
+    """
+    a, b, c, x, d, e, f, y, g, h, i, z = matrix
+    trace = a + e + i
+    largest = max(trace, a, e, i)
+    if largest == trace:
+        qx, qy, qz, qw = h - f, c - g, d - b, 1.0 + trace
+    elif largest == a:
+        qx, qy, qz, qw = 1.0 + a - e - i, b + d, c + g, h - f
+    elif largest == e:
+        qx, qy, qz, qw = b + d, 1.0 - a + e - i, f + h, c - g
+    else:
+        qx, qy, qz, qw = c + g, f + h, 1.0 - a - e + i, d - b
+    length = math.hypot(qx, qy, qz, qw)
+    # times (0, 1, 0, 0), the half turn about Y
+    return x, y, z, -qz / length, qw / length, qx / length, -qy / length
 
 
 def _openvr() -> Any:

@@ -126,15 +126,6 @@ def matrix_from_quaternion(q_xyzw: ArrayLike) -> FloatArray:
     return matrix
 
 
-def quaternion_from_matrix(matrix: ArrayLike) -> FloatArray:
-    """Return unit quaternions of rotation matrices ``(..., 3, 3)``."""
-    from scipy.spatial.transform import Rotation
-
-    matrix = np.asarray(matrix, dtype=np.float64)
-    q = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
-    return np.asarray(q).reshape(*matrix.shape[:-2], 4)
-
-
 def quaternion_from_euler(order: str, angles_rad: ArrayLike) -> FloatArray:
     """Return unit quaternions of Euler angles; ``order`` as in SciPy (capitals: intrinsic)."""
     from scipy.spatial.transform import Rotation

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
@@ -175,9 +175,14 @@ class Recognizer:
         motion = smooth(doodle)
         return self.spot_runs(motion, self.runs_of(doodle, motion))
 
-    def stream(self) -> RecognitionStream:
-        """Return what finds the actions while a doodle is being drawn, sample by sample."""
-        return RecognitionStream(_Remembering(self), figure_height_m=self._figure_height_m)
+    def stream(self, listener: Callable[[RigidMotion], None] | None = None) -> RecognitionStream:
+        """Return what finds the actions while a doodle is being drawn, sample by sample.
+
+        The listener is called with each piece of smoothed motion.
+        """
+        return RecognitionStream(
+            _Remembering(self), figure_height_m=self._figure_height_m, listener=listener
+        )
 
     def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
         """Return the tokens of a doodle's smoothed motion; still where it was not drawn."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Protocol, TypeAlias
 
@@ -72,6 +72,8 @@ class RecognitionStream:
     horizon_s
         How long after its last movement a span is final, at least `BLOCK_S`; longer is nearer
         to the offline pass.
+    listener
+        Called with each piece of smoothed motion, as it follows.
     """
 
     def __init__(
@@ -80,8 +82,10 @@ class RecognitionStream:
         *,
         figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
         horizon_s: float = HORIZON_S,
+        listener: Callable[[RigidMotion], None] | None = None,
     ) -> None:
         self._spotter = spotter
+        self._listener = listener
         self._figure_height_m = figure_height_m
         self._settling_s = horizon_s - 2.0 * STEP_S
         self._smoothing = SmoothingStream()
@@ -122,6 +126,8 @@ class RecognitionStream:
 
     def _extend(self, new: Arrays | None) -> None:
         if new is not None:
+            if self._listener:
+                self._listener(RigidMotion(*new))
             kept = self._arrays or tuple(array[:0] for array in new)
             self._arrays = tuple(map(np.concatenate, zip(kept, new, strict=True)))
 

@@ -99,6 +99,7 @@ void read_scene() {
   if (scene.log) std::fclose(scene.log);
   scene = Scene();
   if (const char* path = std::getenv("SMD_STANDIN_LOG")) scene.log = std::fopen(path, "w");
+  if (scene.log) std::setvbuf(scene.log, nullptr, _IOLBF, BUFSIZ);  // true after kill -9, too
   const char* path = std::getenv("SMD_STANDIN_SCENE");
   std::ifstream file(path ? path : "");
   for (std::string line; std::getline(file, line);) {

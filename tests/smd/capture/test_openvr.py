@@ -12,8 +12,14 @@ import time
 import numpy as np
 import pytest
 
-from smd.formats import read_recording
-from smd.geometry.rotations import inverse, multiply, rotvec_from_quaternion
+from smd.capture.openvr import pose_of
+from smd.formats import SourceFrame, read_recording
+from smd.geometry.rotations import (
+    inverse,
+    matrix_from_quaternion,
+    multiply,
+    rotvec_from_quaternion,
+)
 from tests.smd.capture.conftest import circling, hand
 from tests.standin.runtime import CONTROLLER, HMD, RIGHT, TRACKER, TRIGGER, Scene, asked
 
@@ -128,6 +134,23 @@ def test_a_take_that_is_stopped_reads_to_its_end(play_scene, tmp_path, stop):
     if asked_s is not None:
         assert left.duration_s == pytest.approx(asked_s[-1] - asked_s[1], abs=0.2)
     assert np.diff(left.time_s).max() < 0.2
+
+
+def test_a_pose_is_that_of_the_conversion_of_such_files():
+    rng = np.random.default_rng(5)
+    turns = rng.normal(size=(300, 4))
+    turns[:8, :3] = 0.0, 0.0, 0.0  # no turn, and then half turns about each axis
+    turns[8:20] = np.tile(np.eye(4)[:3], (4, 1)) + 1e-9
+    turns /= np.linalg.norm(turns, axis=1, keepdims=True)
+    positions = rng.normal(size=(300, 3))
+    matrices = np.dstack([matrix_from_quaternion(turns), positions])
+    found = np.array([pose_of(matrix.ravel().tolist()) for matrix in matrices])
+    conversion = SourceFrame.from_options(front="-z").completed(SourceFrame.ours()).conversion()
+    position, orientation = conversion.poses(positions, turns)
+    np.testing.assert_allclose(found[:, :3], position)
+    apart = rotvec_from_quaternion(multiply(inverse(orientation), found[:, 3:]))
+    assert np.abs(apart).max() < 1e-7
+    np.testing.assert_allclose(np.linalg.norm(found[:, 3:], axis=1), 1.0)
 
 
 BAD = {

@@ -219,9 +219,7 @@ def test_an_unknown_suffix_is_named(tmp_path):
     suffixes = ".csv .json .tum .bsor .txt .usd .usda .usdc .usdz"
     assert refused(path) == f"expected a file with suffix {suffixes}, found '.mp4'"
     (tmp_path / "take").write_text(HEADER + GOOD)
-    assert refused(tmp_path / "take") == (
-        "expected a file with suffix .csv .json .tum .txt, found no suffix"
-    )
+    assert refused(tmp_path / "take") == f"expected a file with suffix {suffixes}, found no suffix"
 
 
 def test_a_recording_that_is_lost_all_along_is_refused(tmp_path):
