@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from laban import Effort, EffortModel, RigidMotion
 from laban.effort import AXES
 from laban.windows import WINDOW_S, EffortStream
 from smd.capture.source import Pose
+from smd.errors import DoodleError
 from smd.formats.dropouts import LONGEST_BRIDGE_S
 from smd.formats.frame import Mount
 from smd.geometry.rotations import multiply, rotate
@@ -80,7 +82,8 @@ class LiveRecognition:
                 decided += follower.finish() if follower else []
                 follower = _Follower(self._names[serial], self._recognizer, self._model)
                 self._followers[serial] = follower
-            decided += follower.push(time_s, *self._of_prop(pose[:3], pose[3:]), drawing)
+            with suppress(DoodleError):  # a bad sample is in the recording; here it is passed over
+                decided += follower.push(time_s, *self._of_prop(pose[:3], pose[3:]), drawing)
         return decided
 
     def finish(self) -> list[Decided]:

@@ -38,6 +38,11 @@ _POSE = np.dtype(  # TrackedDevicePose_t of openvr.h
     }
 )
 
+MOST_DOUBT_S = 0.5e-3
+"""The time of a pose is known so well, unless the system is busy for longer than three tries."""
+
+_TRIES = 3
+
 TICK_US = 3000
 """Length of a haptic tick: short, and felt."""
 
@@ -120,12 +125,16 @@ class OpenVRSource:
     def _ask(self) -> float:
         """Bring poses and the list of devices up to date; return the time of the poses.
 
-        The clock is read before the call: on the way back from it another thread may come
-        first, and the time would be that much late.
+        The poses are of a moment between two readings of the clock. Where the system let others
+        go first in between, that says little, and they are asked for again. The earlier reading
+        is the better one: on the way back another thread of ours may come first.
         """
-        now_s = time.perf_counter()
         standing = self._vr.TrackingUniverseStanding
-        self._system.getDeviceToAbsoluteTrackingPose(standing, 0.0, self._buffer)
+        for _ in range(_TRIES):
+            now_s = time.perf_counter()
+            self._system.getDeviceToAbsoluteTrackingPose(standing, 0.0, self._buffer)
+            if time.perf_counter() - now_s < MOST_DOUBT_S:
+                break
         connected = self._poses["connected"].tobytes()
         if connected != self._connected:
             self._connected = connected

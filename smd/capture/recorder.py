@@ -19,7 +19,7 @@ from types import TracebackType
 
 from smd.capture.source import Pose
 from smd.errors import CaptureError
-from smd.formats.native import COLUMNS, GROWS, SCHEMA, VERSION
+from smd.formats.native import COLUMNS, GROWS, SCHEMA, VERSION, device_cell
 
 SYNC_S = 0.05
 """From one request to bring what was written to the disk to the next."""
@@ -45,18 +45,20 @@ class Recorder:
     ------
     CaptureError
         If the file is there, or cannot be made.
+    RecordingError
+        If a name cannot stand in a recording.
     """
 
     def __init__(self, path: Path, devices: Mapping[str, str], *, force: bool = False) -> None:
         self.path = path
-        self._names = dict(devices)
+        self._cells = {serial: device_cell(name) for serial, name in devices.items()}
         self._fd = _new_file(path, force=force)
         self._size = 0
         self._zero_s: float | None = None
         self._failed: OSError | None = None
         self.last_s = 0.0  # of the last row
         head = [f"# schema: {SCHEMA}", f"# version: {VERSION}", f"# {GROWS}: yes"]
-        head += [f"# {name}: {serial}" for serial, name in self._names.items() if name != serial]
+        head += [f"# {name}: {serial}" for serial, name in devices.items() if name != serial]
         self._over = threading.Event()
         self._syncing = threading.Thread(target=self._sync, daemon=True)
         try:
@@ -107,7 +109,7 @@ class Recorder:
     def _row(self, serial: str, pose: Pose | None, drawing: bool) -> str:
         """Return what the file says of one device at the time of the last row."""
         numbers = _LOST if pose is None else _POSE.format(*pose)
-        return f"{self.last_s:.6f},{self._names[serial]},{numbers},{int(drawing)}\n"
+        return f"{self.last_s:.6f},{self._cells[serial]},{numbers},{int(drawing)}\n"
 
     def _append(self, text: str) -> None:
         """Write all of a text, or none of it."""

@@ -26,7 +26,7 @@ def chosen_devices(devices: Sequence[Device], asked: Sequence[str] = ()) -> tupl
         If there is none, one that was asked for is not there, or a role or kind is that of
         several: their rows could not be told apart.
     """
-    there = ", ".join(_shown(device) for device in devices) or "none"
+    there = _listed(devices)
     if asked:
         chosen = tuple(dict.fromkeys(_one(devices, word, there) for word in asked))
     else:
@@ -45,6 +45,15 @@ def chosen_devices(devices: Sequence[Device], asked: Sequence[str] = ()) -> tupl
     return chosen
 
 
+def require_trigger(devices: Sequence[Device]) -> None:
+    """Raise CaptureError unless there is a controller, whose trigger says when the user draws."""
+    if not any(d.kind == "controller" and d.tracking != "away" for d in devices):
+        raise CaptureError(
+            f"expected a controller, whose trigger says when you draw, found {_listed(devices)}: "
+            "switch one on, and try again"
+        )
+
+
 def _one(devices: Sequence[Device], word: str, there: str) -> Device:
     """Return the one device that a serial, role or kind means."""
     by_serial = [device for device in devices if device.serial == word]
@@ -61,6 +70,7 @@ def _one(devices: Sequence[Device], word: str, there: str) -> Device:
     return found[0]
 
 
-def _shown(device: Device) -> str:
-    """Return a device as a message names it."""
-    return f"{device.serial} ({' '.join(filter(None, (device.role, device.kind)))})"
+def _listed(devices: Sequence[Device]) -> str:
+    """Return devices as a message names them."""
+    shown = (f"{d.serial} ({' '.join(filter(None, (d.role, d.kind)))})" for d in devices)
+    return ", ".join(shown) or "none"

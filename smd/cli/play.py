@@ -50,7 +50,7 @@ def play(
     from smd.capture.beside import Beside
     from smd.capture.hand import grips, stretches
     from smd.capture.opening import open_source
-    from smd.capture.selection import chosen_devices
+    from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
     from smd.capture.take import require_rate
 
@@ -62,7 +62,9 @@ def play(
         shelf, library, suffix, picture, figure_height, tolerance, fps, mount
     )
     with open_source(source, rate) as opened:
-        names = {each.serial: each.name for each in chosen_devices(opened.devices(), device or ())}
+        there = opened.devices()
+        require_trigger(there)
+        names = {each.serial: each.name for each in chosen_devices(there, device or ())}
         stories = Shelf(output, "story")
         typer.echo(f"{', '.join(names.values())}: hold the trigger and draw; Ctrl-C ends")
         with Beside() as beside:

@@ -49,7 +49,7 @@ def teach(
     from smd.capture.hand import grips, stretches
     from smd.capture.opening import open_source
     from smd.capture.recorder import Recorder
-    from smd.capture.selection import chosen_devices
+    from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
     from smd.capture.take import record, require_rate
     from smd.cli.learn import Lesson
@@ -60,7 +60,9 @@ def teach(
     options = reading.ReadingOptions(mount=mount)
     taken: list[tuple[Path, Doodle]] = []
     with open_source(source, rate) as opened:
-        names = {each.serial: each.name for each in chosen_devices(opened.devices(), device or ())}
+        there = opened.devices()
+        require_trigger(there)
+        names = {each.serial: each.name for each in chosen_devices(there, device or ())}
         shelf = Shelf(output, action)
 
         def perform(frames: Iterator[Frame]) -> None:

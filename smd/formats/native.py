@@ -231,6 +231,12 @@ def _anything(cell: str) -> float:
     return 0.0
 
 
+def device_cell(device: str) -> str:
+    """Return the cell of a device's name, or raise RecordingError where it cannot be one."""
+    name = _writable_device(device)
+    return '"' + name.replace('"', '""') + '"' if set(name) & set(',"#') else name
+
+
 def _writable_key(key: str) -> str:
     """Return a metadata key that reads back."""
     if key != " ".join(key.split()) or not key or ":" in key or key in ("schema", "version"):

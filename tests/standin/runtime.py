@@ -108,3 +108,14 @@ def asked(folder: Path, word: str) -> np.ndarray:
     """Return the numbers that the stand-in logged under a word."""
     lines = (folder / "asked.txt").read_text(encoding="utf-8").splitlines()
     return np.array([float(line.split()[1]) for line in lines if line.startswith(word + " ")])
+
+
+def answered(folder: Path, time_s: np.ndarray) -> np.ndarray:
+    """Return when each frame of a take was asked for, on the scene's clock, from its times.
+
+    The first question of a take is its list of devices; some are asked again.
+    """
+    asked_s = asked(folder, "poses")[1:]
+    rows = np.abs(asked_s - (time_s - time_s[0] + asked_s[0])[:, None]).argmin(axis=1)
+    assert len(set(rows)) == len(rows), "a sample is there twice"
+    return asked_s[rows]

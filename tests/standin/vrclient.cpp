@@ -85,14 +85,17 @@ double clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double scene_s() {
-  const double now_s = clock_s();
-  if (scene.start_s < 0.0) scene.start_s = now_s;
-  return now_s - scene.start_s;
-}
-
 void log_line(const char* word, double number) {
   if (scene.log) std::fprintf(scene.log, "%s %.9f\n", word, number);
+}
+
+double scene_s() {
+  const double now_s = clock_s();
+  if (scene.start_s < 0.0) {
+    scene.start_s = now_s;
+    log_line("start", now_s);
+  }
+  return now_s - scene.start_s;
 }
 
 void read_scene() {

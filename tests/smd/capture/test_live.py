@@ -95,3 +95,10 @@ def test_what_a_frame_does_not_say_is_not_made_up(tmp_path):
     assert rows_of(frame, ["absent"], hold_to_draw=True) == {}
     (row,) = rows_of(frame, [doodle.device], hold_to_draw=True).values()
     np.testing.assert_allclose(row[0][:3], doodle.position_m[0])
+
+
+def test_a_bad_sample_is_passed_over(recognizer):
+    frames = list(frames_of(played("punch")))
+    bad = [(frames[50][0] + 1e-3, {"LHR-1": ((0.0,) * 7, True)})]  # no rotation
+    live = LiveRecognition(recognizer, load_effort_model(), {"LHR-1": "left"})
+    assert [each.span.action for each in heard(live, frames[:51] + bad + frames[51:])] == ["punch"]

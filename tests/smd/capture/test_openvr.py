@@ -21,6 +21,7 @@ from smd.geometry.rotations import (
     rotvec_from_quaternion,
 )
 from tests.smd.capture.conftest import circling, hand
+from tests.standin import runtime
 from tests.standin.runtime import CONTROLLER, HMD, RIGHT, TRACKER, TRIGGER, Scene, asked
 
 ROOM = [
@@ -57,7 +58,7 @@ def test_a_take_is_what_was_played_when_it_was_asked_for(play_scene, run_smd, tm
     assert recording.devices == ("left", "right", "TRK-1")
     assert recording.metadata["left"] == "LHR-1"
     (left,) = recording.of("left")
-    asked_s = asked(tmp_path, "poses")[-len(left) - 1 : -1]  # the last answer came too late
+    asked_s = runtime.answered(tmp_path, left.time_s)
     np.testing.assert_allclose(left.time_s, asked_s - asked_s[0], atol=2e-3)
     position, orientation = circling(asked_s)
     np.testing.assert_allclose(left.position_m, position, atol=2e-6)

@@ -7,11 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from smd.capture.take import Progress
+from smd.cli.capturing import LiveLine
 from smd.doodle import Recording
 from smd.formats import read_recording, write_recording
 from smd.score import read_score
-from tests.smd.capture.conftest import played
-from tests.standin.runtime import CONTROLLER, GRIP, LEFT, TRIGGER, Played, Scene
+from tests.smd.capture.conftest import hand, played
+from tests.standin.runtime import CONTROLLER, GRIP, LEFT, TRACKER, TRIGGER, Played, Scene
 
 
 def test_a_replayed_story_is_recognised_and_written_under_one_name(run_smd, tmp_path):
@@ -100,3 +102,23 @@ def test_a_bad_name_is_refused_before_anyone_performs(run_smd, tmp_path, name):
     code, out, err = run_smd("teach", name, "--library", tmp_path / "my", "--source", "openvr")
     assert (code, out) == (3, "")
     assert "action" in err
+
+
+@pytest.mark.parametrize("command", [["play"], ["teach", "hurl", "--library", "my"]])
+def test_without_a_trigger_nobody_waits(play_scene, run_smd, tmp_path, command):
+    play_scene(Scene([hand("TRK-1", TRACKER, 0)]))
+    code, out, err = run_smd(*command, "-o", tmp_path / "takes")
+    assert (code, out) == (3, "")
+    assert "expected a controller" in err
+    assert "TRK-1 (tracker)" in err
+    assert not (tmp_path / "takes").exists()
+
+
+def test_a_live_line_tells_how_a_take_goes(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    line = LiveLine({"LHR-1": "left", "TRK-1": "TRK-1"})
+    line.show(Progress(time_s=2.0, frames=181, lost={"TRK-1": 1.5}, losses=1))
+    line.clear()
+    err = capsys.readouterr().err
+    assert "2.0 s   90.0 Hz  left  TRK-1 lost  dropouts 1" in err
+    assert err.count("\n") == 0

@@ -91,3 +91,10 @@ def test_a_device_that_was_never_seen_does_not_spoil_the_take(tmp_path):
     assert (lost.device, lost.kind, lost.bridged) == ("right", "invalid", False)
     with pytest.raises(RecordingError, match="right"):
         read_recording(take, device="right")
+
+
+def test_a_name_with_a_comma_stays_one_cell(tmp_path):
+    with Recorder(tmp_path / "take.csv", {"a": 'doll, "red"'}) as recorder:
+        for i in range(20):
+            recorder.write(i / 90, {"a": (at(i), True)})
+    assert read_recording(tmp_path / "take.csv").devices == ('doll, "red"',)
