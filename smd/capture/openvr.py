@@ -17,8 +17,11 @@ References
 from __future__ import annotations
 
 import math
+import os
+import sys
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -258,12 +261,32 @@ def _openvr() -> Any:
 
 def _system(vr: Any) -> openvr.IVRSystem:
     """Return the running runtime, or raise CaptureError that says what to do."""
-    if not vr.isRuntimeInstalled():
+    with _hushed():
+        installed = vr.isRuntimeInstalled()
+    if not installed:
         raise CaptureError(f"no OpenVR runtime is installed: {_NEXT_STEP[100]}")
     try:
-        return vr.init(vr.VRApplication_Background)
+        with _hushed():
+            return vr.init(vr.VRApplication_Background)
     except vr.OpenVRError as error:
         number = getattr(error, "error_value", None)
         said = vr.getVRInitErrorAsEnglishDescription(number) if number else str(error)
         step = _NEXT_STEP.get(number or 0, "restart SteamVR, and try again")
         raise CaptureError(f"the OpenVR runtime refuses ({said}): {step}") from error
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Keep what the loader prints, past Python, out of our output: errors are told in one line."""
+    sys.stdout.flush()
+    kept = [(fd, os.dup(fd)) for fd in (1, 2)]
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        for fd, _ in kept:
+            os.dup2(nowhere, fd)
+        yield
+    finally:
+        for fd, copy in kept:
+            os.dup2(copy, fd)
+            os.close(copy)
+        os.close(nowhere)

@@ -10,7 +10,6 @@ out a last row that was cut off.
 from __future__ import annotations
 
 import contextlib
-import errno
 import os
 import threading
 from collections.abc import Mapping
@@ -132,8 +131,7 @@ class Recorder:
             try:
                 os.fsync(self._fd)
             except OSError as error:
-                if error.errno != errno.EINVAL:  # a pipe or a terminal cannot
-                    self._failed = error
+                self._failed = error
                 return
 
     def _error(self, error: OSError) -> CaptureError:

@@ -13,10 +13,12 @@ from smd.cli import capturing, reading
 
 if TYPE_CHECKING:
     from actions_library.library import Library
+    from laban import EffortModel
     from smd.capture.beside import Beside
     from smd.capture.live import Decided, LiveRecognition
     from smd.capture.shelf import Shelf
     from smd.capture.source import Frame, Pose, Source
+    from smd.recognition import Recognizer
 
 SHOWN_OTHERS = 2
 """So many alternatives are shown to each phrase."""
@@ -47,19 +49,30 @@ def play(
     """
     import smd
     from exporters import require_known_suffix
+    from laban import load_effort_model
     from smd.capture.beside import Beside
     from smd.capture.hand import grips, stretches
     from smd.capture.opening import open_source
     from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
     from smd.capture.take import require_rate
+    from smd.recognition import Recognizer
 
     require_rate(rate)
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
     require_known_suffix(Path(f"story{suffix}"))
     shelf = smd.load_library(library)
     understanding = _Understanding(
-        shelf, library, suffix, picture, figure_height, tolerance, fps, mount
+        library=shelf,
+        recognizer=Recognizer(shelf, figure_height_m=figure_height, tolerance=tolerance),
+        model=load_effort_model(),
+        folder=library,
+        suffix=suffix,
+        picture=picture,
+        figure_height_m=figure_height,
+        tolerance=tolerance,
+        fps=fps,
+        mount=mount,
     )
     with open_source(source, rate) as opened:
         there = opened.devices()
@@ -150,6 +163,8 @@ class _Understanding:
     """How stories are understood and acted out."""
 
     library: Library
+    recognizer: Recognizer
+    model: EffortModel
     folder: Path | None
     suffix: str
     picture: bool
@@ -160,16 +175,11 @@ class _Understanding:
 
     def live(self, names: dict[str, str]) -> LiveRecognition:
         """Return what recognises one story as it comes."""
-        from laban import load_effort_model
         from smd.capture.live import LiveRecognition
         from smd.formats import Mount
-        from smd.recognition import Recognizer
 
-        recognizer = Recognizer(
-            self.library, figure_height_m=self.figure_height_m, tolerance=self.tolerance
-        )
         mount = None if self.mount is None else Mount.parse(self.mount)
-        return LiveRecognition(recognizer, load_effort_model(), names, mount)
+        return LiveRecognition(self.recognizer, self.model, names, mount)
 
     def whole(self, take: Path, devices: list[str]) -> None:
         """Write a story's Score and animation, and print what was understood.

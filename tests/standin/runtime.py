@@ -113,9 +113,19 @@ def asked(folder: Path, word: str) -> np.ndarray:
 def answered(folder: Path, time_s: np.ndarray) -> np.ndarray:
     """Return when each frame of a take was asked for, on the scene's clock, from its times.
 
-    The first question of a take is its list of devices; some are asked again.
+    Some questions come before the take, for the list of devices, and some are asked again; then
+    the last answer counts. A frame's time is read just before its question.
     """
-    asked_s = asked(folder, "poses")[1:]
-    rows = np.abs(asked_s - (time_s - time_s[0] + asked_s[0])[:, None]).argmin(axis=1)
+    asked_s = asked(folder, "poses")
+
+    def late_s(start_s: float) -> np.ndarray:
+        own_s = time_s - time_s[0] + start_s
+        return np.abs(asked_s - own_s[:, None]).min(axis=1)
+
+    start_s = min(asked_s[:8], key=lambda start_s: np.median(late_s(start_s)))
+    own_s = time_s - time_s[0] + start_s
+    nearest_s = asked_s[np.abs(asked_s - own_s[:, None]).argmin(axis=1)]
+    own_s += np.percentile(nearest_s - own_s, 5) - 20e-6  # the first may have come late itself
+    rows = np.searchsorted(asked_s, own_s)
     assert len(set(rows)) == len(rows), "a sample is there twice"
     return asked_s[rows]

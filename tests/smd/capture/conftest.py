@@ -54,8 +54,8 @@ def circling(time_s):
     return position, np.stack([zero, np.sin(turn), zero, np.cos(turn)], axis=-1)
 
 
-def hand(serial="LHR-1", kind=runtime.CONTROLLER, role=runtime.LEFT, seconds=3.0, **more) -> Played:
-    time_s = np.arange(0.0, seconds, 1e-3)
+def hand(serial="LHR-1", kind=runtime.CONTROLLER, role=runtime.LEFT, seconds=2.0, **more) -> Played:
+    time_s = np.arange(0.0, seconds, 4e-3)
     return Played(kind, role, serial, time_s, *circling(time_s), **more)
 
 

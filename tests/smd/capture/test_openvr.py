@@ -61,7 +61,7 @@ def test_a_take_is_what_was_played_when_it_was_asked_for(play_scene, run_smd, tm
     asked_s = runtime.answered(tmp_path, left.time_s)
     np.testing.assert_allclose(left.time_s, asked_s - asked_s[0], atol=2e-3)
     position, orientation = circling(asked_s)
-    np.testing.assert_allclose(left.position_m, position, atol=2e-6)
+    np.testing.assert_allclose(left.position_m, position, atol=6e-6)  # of it 5: interpolation
     apart = rotvec_from_quaternion(multiply(inverse(orientation), left.orientation_xyzw))
     assert np.degrees(np.linalg.norm(apart, axis=1)).max() < 1e-3
     # each controller is felt when the take begins and when it ends
@@ -184,10 +184,16 @@ def test_bad_input_costs_one_line_with_the_next_step(play_scene, run_smd, tmp_pa
     assert not take.exists()
 
 
-def test_without_a_runtime_it_says_what_to_do(run_smd, tmp_path, monkeypatch):
+def test_without_a_runtime_it_says_what_to_do_and_the_loader_nothing(tmp_path):
     pytest.importorskip("openvr")
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
-    monkeypatch.setenv("HOME", str(tmp_path))
-    code, out, err = run_smd("devices")
-    assert (code, out) == (3, "")
-    assert "install SteamVR" in err
+    nowhere = {"XDG_CONFIG_HOME": str(tmp_path), "HOME": str(tmp_path)}
+    told = subprocess.run(
+        [sys.executable, "-m", "smd.cli", "devices", "--json"],
+        env={**os.environ, **nowhere},
+        capture_output=True,
+        text=True,
+    )
+    assert (told.returncode, told.stdout) == (3, "")
+    assert told.stderr == (
+        "smd: no OpenVR runtime is installed: install SteamVR, start it, and try again\n"
+    )
