@@ -206,6 +206,10 @@ def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
             tokens = reading.count(len(sequence), "token")
             yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
     if learned.mandatory:
+        lengths = sorted(len(sequence) for sequence in learned.sequences)
+        if count > 1:
+            of = f"{lengths[0]} to {lengths[-1]}"
+            yield f"  agree in {reading.count(len(learned.mandatory), 'token')} of {of}"
         yield from _tokens(learned)
     else:
         yield "  warning: no movement is in all examples; they show several ways to draw it"

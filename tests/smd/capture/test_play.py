@@ -79,6 +79,7 @@ def test_three_performances_teach_an_action(run_smd, tmp_path):
         assert f"{i} of 3: hold the trigger" in out
         assert f"hurl-00{i}.csv: " in out
     assert "hurl: learned from 3 examples" in out
+    assert "  agree in " in out
     assert "must occur, in this order" in out
     # what was learned is understood
     write_recording(Recording((played("throw", seed=4),)), tmp_path / "take.csv")
