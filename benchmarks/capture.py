@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -88,7 +89,13 @@ def accuracy(folder: Path, devices: list[Played]) -> None:
     subprocess.run(smd("record", "-o", take, "--seconds", SECONDS), check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     recording = read_recording(take)
-    asked_s = runtime.answered(folder, recording.of("left")[0].time_s)
+    (left,) = recording.of("left")
+    asked_s = runtime.answered(
+        folder,
+        left.time_s,
+        left.position_m,
+        partial(interpolate_linear, devices[1].time_s, devices[1].position_m),
+    )
     errors_m, errors_deg = [], []
     for name, device in zip(("left", "right", "TRK-1"), devices[1:], strict=True):
         (doodle,) = recording.of(name)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from smd.capture.live import Decided, LiveRecognition
     from smd.capture.shelf import Shelf
     from smd.capture.source import Frame, Pose, Source
+    from smd.formats import Mount
     from smd.recognition import Recognizer
 
 SHOWN_OTHERS = 2
@@ -56,6 +57,7 @@ def play(
     from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
     from smd.capture.take import require_rate
+    from smd.formats import Mount
     from smd.recognition import Recognizer
 
     require_rate(rate)
@@ -72,7 +74,7 @@ def play(
         figure_height_m=figure_height,
         tolerance=tolerance,
         fps=fps,
-        mount=mount,
+        mount=None if mount is None else Mount.parse(mount),
     )
     with open_source(source, rate) as opened:
         there = opened.devices()
@@ -171,15 +173,13 @@ class _Understanding:
     figure_height_m: float
     tolerance: float
     fps: float
-    mount: str | None
+    mount: Mount | None
 
     def live(self, names: dict[str, str]) -> LiveRecognition:
         """Return what recognises one story as it comes."""
         from smd.capture.live import LiveRecognition
-        from smd.formats import Mount
 
-        mount = None if self.mount is None else Mount.parse(self.mount)
-        return LiveRecognition(self.recognizer, self.model, names, mount)
+        return LiveRecognition(self.recognizer, self.model, names, self.mount)
 
     def whole(self, take: Path, devices: list[str]) -> None:
         """Write a story's Score and animation, and print what was understood.
@@ -193,7 +193,7 @@ class _Understanding:
         from smd.score import write_score
 
         understood = reading.understanding(
-            reading.ReadingOptions(mount=self.mount),
+            reading.ReadingOptions(mount=None if self.mount is None else str(self.mount)),
             self.library,
             self.folder,
             figure_height_m=self.figure_height_m,

@@ -54,10 +54,11 @@ def teach(
     from smd.capture.take import record, require_rate
     from smd.cli.learn import Lesson
     from smd.errors import CaptureError, SmdError
+    from smd.formats import Mount
 
     require_rate(rate)
     lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
-    options = reading.ReadingOptions(mount=mount)
+    options = reading.ReadingOptions(mount=None if mount is None else str(Mount.parse(mount)))
     taken: list[tuple[Path, Doodle]] = []
     with open_source(source, rate) as opened:
         there = opened.devices()

@@ -110,22 +110,37 @@ def asked(folder: Path, word: str) -> np.ndarray:
     return np.array([float(line.split()[1]) for line in lines if line.startswith(word + " ")])
 
 
-def answered(folder: Path, time_s: np.ndarray) -> np.ndarray:
-    """Return when each frame of a take was asked for, on the scene's clock, from its times.
+def answered(
+    folder: Path,
+    time_s: np.ndarray,
+    position_m: np.ndarray,
+    played: Callable[[np.ndarray], np.ndarray],
+) -> np.ndarray:
+    """Return when each frame of a take was asked for, on the scene's clock.
 
-    Some questions come before the take, for the list of devices, and some are asked again; then
-    the last answer counts. A frame's time is read just before its question.
+    Some questions come before the take, for the list of devices, and some are asked again, a
+    moment later. Of the questions nearest to a frame it is the one whose answer it holds.
+
+    Parameters
+    ----------
+    folder
+        Of the log.
+    time_s, position_m
+        Of one device's frames.
+    played
+        Where it was at some times.
     """
     asked_s = asked(folder, "poses")
 
     def late_s(start_s: float) -> np.ndarray:
-        own_s = time_s - time_s[0] + start_s
-        return np.abs(asked_s - own_s[:, None]).min(axis=1)
+        return np.abs(asked_s - (time_s - time_s[0] + start_s)[:, None])
 
-    start_s = min(asked_s[:8], key=lambda start_s: np.median(late_s(start_s)))
-    own_s = time_s - time_s[0] + start_s
-    nearest_s = asked_s[np.abs(asked_s - own_s[:, None]).argmin(axis=1)]
-    own_s += np.percentile(nearest_s - own_s, 5) - 20e-6  # the first may have come late itself
-    rows = np.searchsorted(asked_s, own_s)
+    off_s = min(map(late_s, asked_s[:8]), key=lambda late: np.median(late.min(axis=1)))
+    beside = off_s.argmin(axis=1)[:, None] + np.arange(-2, 3)
+    beside = np.clip(beside, 0, len(asked_s) - 1)
+    there_m = played(asked_s[beside].ravel()).reshape(*beside.shape, 3)
+    off_m = np.linalg.norm(there_m - position_m[:, None], axis=2)
+    off_m += 1e-3 * np.take_along_axis(off_s, beside, axis=1)  # where nothing moves, the nearest
+    rows = beside[np.arange(len(beside)), off_m.argmin(axis=1)]
     assert len(set(rows)) == len(rows), "a sample is there twice"
     return asked_s[rows]

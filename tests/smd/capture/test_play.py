@@ -123,3 +123,10 @@ def test_a_live_line_tells_how_a_take_goes(capsys, monkeypatch):
     err = capsys.readouterr().err
     assert "2.0 s   90.0 Hz  left  TRK-1 lost  dropouts 1" in err
     assert err.count("\n") == 0
+
+
+@pytest.mark.parametrize("command", [["play"], ["teach", "hurl", "--library", "my"]])
+def test_a_bad_mount_is_told_before_anyone_plays(run_smd, tmp_path, command):
+    code, out, err = run_smd(*command, "-o", tmp_path / "takes", "--mount", "jaw=180")
+    assert (code, out) == (3, "")
+    assert "'jaw=180'" in err
