@@ -132,15 +132,20 @@ def answered(
     """
     asked_s = asked(folder, "poses")
 
-    def late_s(start_s: float) -> np.ndarray:
-        return np.abs(asked_s - (time_s - time_s[0] + start_s)[:, None])
+    own_s = time_s - time_s[0]
 
-    off_s = min(map(late_s, asked_s[:8]), key=lambda late: np.median(late.min(axis=1)))
-    beside = off_s.argmin(axis=1)[:, None] + np.arange(-2, 3)
-    beside = np.clip(beside, 0, len(asked_s) - 1)
+    def nearest(start_s: float) -> np.ndarray:
+        after = np.clip(np.searchsorted(asked_s, own_s + start_s), 1, len(asked_s) - 1)
+        return after - (2.0 * (own_s + start_s) < asked_s[after - 1] + asked_s[after])
+
+    def misfit_s(start_s: float) -> float:
+        return float(np.median(np.abs(asked_s[nearest(start_s)] - own_s - start_s)))
+
+    start_s = min(asked_s[:8], key=misfit_s)
+    beside = np.clip(nearest(start_s)[:, None] + np.arange(-2, 3), 0, len(asked_s) - 1)
     there_m = played(asked_s[beside].ravel()).reshape(*beside.shape, 3)
     off_m = np.linalg.norm(there_m - position_m[:, None], axis=2)
-    off_m += 1e-3 * np.take_along_axis(off_s, beside, axis=1)  # where nothing moves, the nearest
+    off_m += 1e-3 * np.abs(asked_s[beside] - (own_s + start_s)[:, None])  # at rest, the nearest
     rows = beside[np.arange(len(beside)), off_m.argmin(axis=1)]
     assert len(set(rows)) == len(rows), "a sample is there twice"
     return asked_s[rows]
