@@ -20,6 +20,10 @@ class RecordingError(SmdError):
     """A recording file that cannot be read."""
 
 
+class CaptureError(SmdError):
+    """Tracked devices that cannot be recorded: no runtime, no such device, nowhere to write."""
+
+
 class PatternError(SmdError):
     """A pattern that does not parse; ``position`` is the offending character's index."""
 

@@ -73,6 +73,8 @@ def parse(
                 warnings.append(f"left out: {error}")
         parts.append(Part(device, tuple(_phrases(played, model))))
         warnings.extend(_lost_tracking(recording, device))
+    if not devices:
+        warnings.extend(_never_tracked(recording))
     return replace(empty, performers=tuple(parts), warnings=tuple(warnings))
 
 
@@ -138,6 +140,13 @@ def _lost_tracking(recording: Recording, device: str) -> Iterator[str]:
             f"device {device!r}: tracking was lost {times} ({splits} split the doodle); longest "
             f"{longest.end_s - longest.start_s:.2f} s at {longest.start_s:.2f} s"
         )
+
+
+def _never_tracked(recording: Recording) -> Iterator[str]:
+    """Yield a line on each device of which nothing is left."""
+    for device in dict.fromkeys(dropout.device for dropout in recording.dropouts):
+        if device not in recording.devices:
+            yield f"device {device!r}: left out: it was never tracked for 0.1 s"
 
 
 def animate(

@@ -7,7 +7,21 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from smd.cli import animate, calibrate, convert, demo, laban, learn, library, parse, render
+from smd.cli import (
+    animate,
+    calibrate,
+    convert,
+    demo,
+    devices,
+    laban,
+    learn,
+    library,
+    parse,
+    play,
+    record,
+    render,
+    teach,
+)
 
 app = typer.Typer(
     name="smd",
@@ -33,6 +47,10 @@ app.command()(convert.convert)
 app.command()(parse.parse)
 app.command()(animate.animate)
 app.command()(render.render)
+app.command()(devices.devices)
+app.command()(record.record)
+app.command()(play.play)
+app.command()(teach.teach)
 app.command()(learn.learn)
 app.command()(calibrate.calibrate)
 app.add_typer(library.app, name="library", help="What can be performed.")

@@ -72,57 +72,106 @@ def learn(
     Each RECORDING is one performance of it; three to five are a good number. Extends a library,
     or makes one.
     """
-    import smd
-    from actions_library.extension import (
-        add_action,
-        clip_source,
-        new_library,
-        require_name,
-        require_new,
-    )
-    from actions_library.manifest import MANIFEST
-    from smd.errors import LibraryError
-
-    require_name(action)
-    shipped = smd.load_library()
-    there = (library / MANIFEST).is_file()
-    if there and base is not None:
-        raise LibraryError(f"{library}: expected no library there to begin one --from {base}")
-    if there:
-        start = smd.load_library(library)
-    else:
-        start = shipped if base in (None, shipped.name) else smd.load_library(base)
-    kept = [known.name for known in start.actions] if there or base is not None else []
-    if action in kept and not replace:
-        require_new(start, action)
-    before = next((known for known in start.actions if known.name == action), None)
-    shelf, shown = clip_source(action, clip, (start, shipped))
+    lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     files = list(reading.recording_files(recordings))
     doodles = [_example(file, options, device) for file in files]
-    new, learned = _learned(action, files, doodles, figure_height)
-    new = dataclasses.replace(
-        new,
-        travels=shown.travels,
-        cyclic=shown.cyclic,
-        description=description or (before.description if before and action in kept else ""),
-        rest=before.rest if before and action in kept else "",
-    )
-    report = [*_report(new, learned), *_rests(files, doodles, figure_height)]
-    performed = dataclasses.replace(shelf.clip(shown.name), name=action)
-    credit = shelf.credit(shown.name)
-    if there:
-        extended = add_action(start, new, performed, credit)
-    else:
-        extended = new_library(library, start, kept, new, performed, credit)
-    typer.echo("\n".join(report))
-    why = "" if clip or shown.name == action else f"; there is no clip {action!r}, see --clip"
-    typer.echo(f"  clip: {shown.name} of the library {shelf.name!r}{why}")
-    for line in _collisions(extended, action):
-        typer.echo(f"  {line}")
-    verb = "extended" if there else "made"
-    names = ", ".join(known.name for known in extended.actions)
-    typer.echo(f"{verb}: {library}: {names}")
+    typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height)))
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Lesson:
+    """An action to learn, and the library to learn it into, checked before anyone performs.
+
+    Attributes
+    ----------
+    action : its name.
+    folder : of the library.
+    there : whether it is there already.
+    start : the library that it extends, or that it begins with.
+    kept : names of the actions that the library will have of ``start``.
+    shelf, shown : the library and the action whose clip performs the new one.
+    clip : the name that was asked for, if one was.
+    """
+
+    action: str
+    folder: Path
+    there: bool
+    start: Library
+    kept: list[str]
+    shelf: Library
+    shown: Action
+    clip: str | None
+
+    @classmethod
+    def of(
+        cls,
+        action: str,
+        folder: Path,
+        *,
+        clip: str | None = None,
+        base: str | None = None,
+        replace: bool = False,
+    ) -> Lesson:
+        """Return the lesson that a user asks for; the options are those of ``smd learn``.
+
+        Raises
+        ------
+        LibraryError
+            If the name is no word or taken, or a library or clip is not there.
+        """
+        import smd
+        from actions_library.extension import clip_source, require_name, require_new
+        from actions_library.manifest import MANIFEST
+        from smd.errors import LibraryError
+
+        require_name(action)
+        shipped = smd.load_library()
+        there = (folder / MANIFEST).is_file()
+        if there and base is not None:
+            raise LibraryError(f"{folder}: expected no library there to begin one --from {base}")
+        if there:
+            start = smd.load_library(folder)
+        else:
+            start = shipped if base in (None, shipped.name) else smd.load_library(base)
+        kept = [known.name for known in start.actions] if there or base is not None else []
+        if action in kept and not replace:
+            require_new(start, action)
+        shelf, shown = clip_source(action, clip, (start, shipped))
+        return cls(action, folder, there, start, kept, shelf, shown, clip)
+
+    def learned(
+        self, files: list[Path], doodles: list[Doodle], description: str, figure_height_m: float
+    ) -> Iterator[str]:
+        """Learn from doodles, write the library, and yield lines on what was learned."""
+        from actions_library.extension import add_action, new_library
+
+        new, learned = _learned(self.action, files, doodles, figure_height_m)
+        before = next((a for a in self.start.actions if a.name == self.action), None)
+        before = before if self.action in self.kept else None
+        new = dataclasses.replace(
+            new,
+            travels=self.shown.travels,
+            cyclic=self.shown.cyclic,
+            description=description or (before.description if before else ""),
+            rest=before.rest if before else "",
+        )
+        report = [*_report(new, learned), *_rests(files, doodles, figure_height_m)]
+        performed = dataclasses.replace(self.shelf.clip(self.shown.name), name=self.action)
+        credit = self.shelf.credit(self.shown.name)
+        if self.there:
+            extended = add_action(self.start, new, performed, credit)
+        else:
+            extended = new_library(self.folder, self.start, self.kept, new, performed, credit)
+        yield from report
+        own = self.clip or self.shown.name == self.action
+        why = "" if own else f"; there is no clip {self.action!r}, see --clip"
+        yield f"  clip: {self.shown.name} of the library {self.shelf.name!r}{why}"
+        for line in _collisions(extended, self.action):
+            yield f"  {line}"
+        verb = "extended" if self.there else "made"
+        names = ", ".join(known.name for known in extended.actions)
+        yield f"{verb}: {self.folder}: {names}"
 
 
 def _example(file: Path, options: reading.ReadingOptions, device: str | None) -> Doodle:
@@ -164,6 +213,10 @@ def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
             tokens = reading.count(len(sequence), "token")
             yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
     if learned.mandatory:
+        lengths = sorted(len(sequence) for sequence in learned.sequences)
+        if count > 1:
+            of = f"{lengths[0]} to {lengths[-1]}"
+            yield f"  agree in {reading.count(len(learned.mandatory), 'token')} of {of}"
         yield from _tokens(learned)
     else:
         yield "  warning: no movement is in all examples; they show several ways to draw it"

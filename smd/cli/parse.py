@@ -12,6 +12,7 @@ from smd.cli import reading
 from smd.cli.batch import for_each, targets
 
 if TYPE_CHECKING:
+    from laban import Effort
     from smd.score import Score
 
 
@@ -78,20 +79,28 @@ def parse(
             typer.echo(json.dumps([json.loads(score_to_json(score)) for score in scores]))
 
 
-def table(score: Score) -> list[str]:
-    """Return a Score as lines of a table, one phrase a line."""
+def table(score: Score, *, others: int = 0) -> list[str]:
+    """Return a Score as lines of a table, one phrase a line, with so many alternatives to each."""
     lines = []
     for part in score.performers:
         lines.append(f"  {part.device}" + ("" if part.phrases else ": nothing recognised"))
         for phrase in part.phrases:
-            efforts = " ".join(
-                f"{axis} {value:+.2f}"
-                for axis in ("time", "weight", "space", "flow")
-                if (value := getattr(phrase.effort, axis)) is not None
+            line = row(
+                phrase.start_s, phrase.end_s, phrase.action, phrase.confidence, phrase.effort
             )
-            lines.append(
-                f"    {phrase.start_s:8.2f} – {phrase.end_s:7.2f} s  {phrase.action:<16} "
-                f"confidence {phrase.confidence:.2f}  {efforts}".rstrip()
-            )
+            names = ", ".join(other.action for other in phrase.alternatives[:others])
+            lines.append(f"    {line}" + (f"  or {names}" if names else ""))
     lines.extend(f"  {line}" for line in score.warnings)
     return lines
+
+
+def row(start_s: float, end_s: float, action: str, confidence: float, effort: Effort) -> str:
+    """Return one phrase as a line."""
+    efforts = " ".join(
+        f"{axis} {value:+.2f}"
+        for axis in ("time", "weight", "space", "flow")
+        if (value := getattr(effort, axis)) is not None
+    )
+    return (
+        f"{start_s:8.2f} – {end_s:7.2f} s  {action:<16} confidence {confidence:.2f}  {efforts}"
+    ).rstrip()

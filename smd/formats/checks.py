@@ -27,7 +27,7 @@ def checked(name: str, track: Track, metres_per_unit: float) -> BoolArray:
     Raises
     ------
     RecordingError
-        If there are fewer than two poses, times are not finite, increasing seconds, a position
+        If there are fewer than two rows, times are not finite, increasing seconds, a position
         is infinite or absurd, or a quaternion is zero or far from unit length; the message names
         the first row at fault.
     """
@@ -41,9 +41,6 @@ def checked(name: str, track: Track, metres_per_unit: float) -> BoolArray:
         row = int(np.argmax(infinite))
         raise fault(name, track.place(row), "finite numbers", "inf")
     valid = ~np.isnan(pose).any(axis=1)
-    if np.count_nonzero(valid) < 2:
-        found = f"{np.count_nonzero(valid)} among {len(valid)} rows"
-        raise fault(name, device, "at least two poses that are numbers", found)
     _check_poses(name, track, valid, metres_per_unit)
     return valid
 

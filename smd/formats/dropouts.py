@@ -105,7 +105,9 @@ def _dropouts(device: str, time_s: FloatArray, state: IntArray) -> list[Dropout]
     length_s = np.diff(time_s[good])
     lossy = (np.diff(good) > 1) | (length_s > unusual_s + 1e-9)
     pairs = [(int(good[i]), int(good[i + 1])) for i in np.flatnonzero(lossy)]
-    if len(good) and good[0] > 0:
+    if not len(good):
+        pairs = [(0, len(state) - 1)]
+    elif good[0] > 0:
         pairs.insert(0, (0, int(good[0])))
     if len(good) and good[-1] < len(state) - 1:
         pairs.append((int(good[-1]), len(state) - 1))

@@ -34,8 +34,12 @@ VERSION = 1
 ONLY_DEVICE = "prop"
 """Name of the device where a file does not name any."""
 
+GROWS = "grows"
+"""Metadata of a file that is written row by row: its last row may have been cut off."""
+
 _POSITION = ("x", "y", "z")
 _QUATERNION = ("qx", "qy", "qz", "qw")
+COLUMNS = ("time_s", "device", *_POSITION, *_QUATERNION, "drawing")
 _TIMES = ("time_s", "t", "time", "timestamp")
 _TRUTH = {"1": 1.0, "true": 1.0, "1.0": 1.0, "0": 0.0, "false": 0.0, "0.0": 0.0}
 
@@ -57,6 +61,10 @@ def read(text: str, name: str) -> Content:
     lines = text.split("\n")
     head = next(i for i, line in enumerate(lines) if is_row(line))
     metadata = _metadata(name, lines[:head])
+    if metadata.pop(GROWS, None):
+        del lines[-1]  # after the last line end: nothing, or a row that was cut off
+        if head == len(lines):
+            raise fault(name, "", "rows of poses", "a header that was cut off")
     header = [cell.lower() for cell in cells(lines[head], ",")]
     headerless = _is_number(header[0])
     columns = _positional(name, head, header) if headerless else _named(name, head, header)
@@ -122,7 +130,7 @@ def write_recording(recording: Recording, path: str | Path) -> None:
         If the file cannot be written.
     """
     always = all(doodle.drawing.all() for doodle in recording.doodles)
-    header = ["time_s", "device", *_POSITION, *_QUATERNION, *([] if always else ["drawing"])]
+    header = COLUMNS[:-1] if always else COLUMNS
     with replacing(Path(path)) as temporary, temporary.open("w", encoding="utf-8", newline="") as f:
         f.write(f"# schema: {SCHEMA}\n# version: {VERSION}\n")
         for key, value in recording.metadata.items():
@@ -221,6 +229,12 @@ def _anything(cell: str) -> float:
     """Accept a cell of a column that is not ours."""
     del cell
     return 0.0
+
+
+def device_cell(device: str) -> str:
+    """Return the cell of a device's name, or raise RecordingError where it cannot be one."""
+    name = _writable_device(device)
+    return '"' + name.replace('"', '""') + '"' if set(name) & set(',"#') else name
 
 
 def _writable_key(key: str) -> str:

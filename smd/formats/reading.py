@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from smd.doodle import Doodle, Dropout, Recording
-from smd.formats import aframe, native, tum
+from smd.errors import RecordingError
+from smd.formats import aframe, bsor, motive, native, tum, usd_xform
 from smd.formats.checks import LATEST_S, checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
 from smd.formats.frame import Conversion, SourceFrame
@@ -14,14 +18,21 @@ from smd.formats.tracks import Content, Track, fault, shown
 from smd.geometry.arrays import BoolArray
 from smd.geometry.rotations import normalized
 
-FORMATS = (aframe, native, tum)
-"""Asked in this order whether a file is theirs."""
+FORMATS = (aframe, motive, native, tum)
+"""Asked in this order whether a text is theirs."""
 
-SUFFIXES = (".csv", ".json", ".tum")
+BINARY: dict[str, Callable[[Path, str], Content]] = {
+    ".bsor": bsor.read,
+    **dict.fromkeys(usd_xform.SUFFIXES, usd_xform.read),
+}
+"""Formats that are no text of their own are known by their suffix."""
+
+SUFFIXES = (".csv", ".json", ".tum", ".bsor")
 """Suffixes of recordings: what a folder is searched for."""
 
-READABLE = (*SUFFIXES, ".txt")
-"""Suffixes that are read when a file is named: text may be a table of poses, or prose."""
+READABLE = (*SUFFIXES, ".txt", *usd_xform.SUFFIXES)
+"""Suffixes that are read when a file is named: text may be a table of poses, or prose, and USD a
+recording, or an animation that was made of one."""
 
 _HEAD = 65_536  # characters by which formats know their files
 
@@ -33,12 +44,14 @@ def read_recording(
 
     The content decides which format it is. Rows where tracking was lost (`Dropout`) are left
     out; a loss of more than 0.25 s ends one doodle and begins the next, a shorter one is left
-    for smoothing to bridge.
+    for smoothing to bridge. A device that was never tracked beside others that were is left out,
+    and is one dropout.
 
     Parameters
     ----------
     path
-        A native or plain CSV, a TUM trajectory, or A-Frame motion capture (JSON).
+        A native or plain CSV, a TUM trajectory, A-Frame motion capture (JSON), an OptiTrack Motive
+        CSV, a Beat Saber Open Replay, or USD with animated transforms.
     frame
         What the numbers mean, where the format's own answer is not right.
     device
@@ -62,7 +75,8 @@ def read_recording(
     if path.suffix.lower() not in READABLE:
         suffix = repr(path.suffix) if path.suffix else "no suffix"
         raise fault(name, "", f"a file with suffix {' '.join(READABLE)}", suffix)
-    content = _content(read_text(path, name), name)
+    in_binary = BINARY.get(path.suffix.lower())
+    content = in_binary(path, name) if in_binary else _content(read_text(path, name), name)
     asked = frame or SourceFrame()
     if content.order_is_given and asked.quaternion not in (None, content.frame.quaternion):
         raise fault(
@@ -82,7 +96,19 @@ def read_recording(
         drawn, lost = _doodles(name, track, of_numbers, conversion, zero_s)
         doodles += drawn
         dropouts += lost
+    if not doodles:
+        raise _never_tracked(name, chosen[0], valid[0])
     return Recording(tuple(doodles), name, tuple(dropouts), metadata)
+
+
+def _never_tracked(name: str, track: Track, valid: BoolArray) -> RecordingError:
+    """Return the error for a device of which nothing is left."""
+    device, numbers = f"device {track.device!r}", np.count_nonzero(valid)
+    if numbers < 2:
+        found = f"{numbers} among {len(valid)} rows"
+        return fault(name, device, "at least two poses that are numbers", found)
+    expected = f"a stretch of at least {SHORTEST_LOSS_S:g} s without loss of tracking"
+    return fault(name, device, expected, "none")
 
 
 def _content(text: str, name: str) -> Content:
@@ -112,17 +138,10 @@ def _chosen(name: str, tracks: tuple[Track, ...], device: str | None) -> tuple[T
 def _doodles(
     name: str, track: Track, valid: BoolArray, conversion: Conversion, zero_s: float
 ) -> tuple[list[Doodle], tuple[Dropout, ...]]:
-    """Return the doodles of one device, and where it was lost."""
+    """Return the doodles of one device, none where it was never tracked, and where it was lost."""
     time_s = track.time_s - zero_s
     position_m, orientation_xyzw = conversion.poses(track.position, normalized(track.quaternion))
     tracking = find_dropouts(track.device, time_s, position_m, orientation_xyzw, valid)
-    if not any(len(stretch) > 1 for stretch in tracking.stretches):
-        raise fault(
-            name,
-            f"device {track.device!r}",
-            f"a stretch of at least {SHORTEST_LOSS_S:g} s without loss of tracking",
-            "none",
-        )
     return [
         Doodle(
             time_s=time_s[rows],
@@ -132,4 +151,5 @@ def _doodles(
             drawing=track.drawing[rows],
         )
         for rows in tracking.stretches
+        if len(rows) > 1
     ], tracking.dropouts

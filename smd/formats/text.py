@@ -27,6 +27,20 @@ def require_file(path: Path, name: str) -> None:
         raise fault(name, "", "a recording", "no regular file")
 
 
+def read_bytes(path: Path, name: str) -> bytes:
+    """Return a file's content.
+
+    Raises
+    ------
+    RecordingError
+        If the file cannot be read.
+    """
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise fault(name, "", "a file that can be read", str(error.strerror)) from error
+
+
 def read_text(path: Path, name: str) -> str:
     r"""Return a UTF-8 file's text, its line ends as ``\n`` and a byte order mark left out.
 
@@ -35,12 +49,10 @@ def read_text(path: Path, name: str) -> str:
     RecordingError
         If the file cannot be read, or is not UTF-8 text.
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise fault(name, "", "a file that can be read", str(error.strerror)) from error
+    data = read_bytes(path, name)
     if _is_utf16(data):
         raise fault(name, "", "text in UTF-8", "UTF-16; save it again as UTF-8")
+    data = data.rstrip(b"\0")  # what a power cut may leave at the end of a file that grew
     if b"\0" in data:
         raise fault(name, "", "text", "binary data")
     try:

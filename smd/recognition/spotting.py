@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
@@ -46,6 +46,10 @@ enough to choose stretches; what they are called is decided by all samples."""
 
 Fits: TypeAlias = dict[tuple[int, float, float], float]
 """How well stretches fit an action's examples, by action, start and end in seconds."""
+
+Terms: TypeAlias = dict[tuple[float, float], FloatArray]
+"""What stretches are weighed by, tokens apart, ``(a, 9)`` for the actions with examples, by start
+and end in seconds."""
 
 
 class HasActions(Protocol):
@@ -175,9 +179,14 @@ class Recognizer:
         motion = smooth(doodle)
         return self.spot_runs(motion, self.runs_of(doodle, motion))
 
-    def stream(self) -> RecognitionStream:
-        """Return what finds the actions while a doodle is being drawn, sample by sample."""
-        return RecognitionStream(_Remembering(self), figure_height_m=self._figure_height_m)
+    def stream(self, listener: Callable[[RigidMotion], None] | None = None) -> RecognitionStream:
+        """Return what finds the actions while a doodle is being drawn, sample by sample.
+
+        The listener is called with each piece of smoothed motion.
+        """
+        return RecognitionStream(
+            _Remembering(self), figure_height_m=self._figure_height_m, listener=listener
+        )
 
     def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
         """Return the tokens of a doodle's smoothed motion; still where it was not drawn."""
@@ -225,11 +234,16 @@ class Recognizer:
         return with_loose_ends([Segment(*proposed[accepted[i]][:3]) for i in best], runs)
 
     def named(
-        self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        segments: Sequence[Segment],
+        known: Terms | None = None,
     ) -> list[Span]:
         """Return the spans of chosen stretches, with what else each could be.
 
         Each is of the action that it costs least to see there, of those within their limit.
+        What they are weighed by is taken from ``known`` where it is there, and else written down.
         """
         if not self._verified.any():
             return self._tokens.named(motion, runs, segments)
@@ -237,7 +251,7 @@ class Recognizer:
         limit = dict(zip(self.names, self._verification.limit.tolist(), strict=True))
         spans = []
         for one, ranked in zip(
-            segments, self._matches(motion, runs, stretches, WORTH_NAMING), strict=True
+            segments, self._matches(motion, runs, stretches, WORTH_NAMING, known), strict=True
         ):
             within = (m.action for m in ranked if m.action and m.distance <= limit[m.action])
             spans.append(_span(next(within, self.names[one.index]), one, runs, ranked))
@@ -310,10 +324,12 @@ class Recognizer:
         runs: Sequence[TokenRun],
         stretches: Sequence[tuple[int, int]],
         beyond: float,
+        known: Terms | None = None,
     ) -> list[list[Match]]:
         """Weigh every action, and none, for stretches of runs; for each the best first.
 
-        What costs more than ``beyond`` times its action's limit may come out as infinity.
+        What costs more than ``beyond`` times its action's limit comes out as infinity, where the
+        action has examples.
         """
         prices = run_costs(runs, self._costs)
         read = prices.of_reading(self._bank, runs)
@@ -329,16 +345,30 @@ class Recognizer:
         terms[..., 0] = UNVERIFIED + UNVERIFIED_WRONG * wrong
         limit = np.where(self._verified, self._verification.limit, UNVERIFIED + UNVERIFIED_WRONG)
         if len(parts) and self._verified.any():
+            known = {} if known is None else known
             spans_s = [(runs[first].start_s, runs[last - 1].end_s) for first, last in stretches]
-            gesture, action = np.nonzero(np.broadcast_to(self._verified, wrong.shape))
-            terms[gesture, action] = self._verification.terms(
-                traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m),
-                action,
-                gesture,
-                wrong=wrong[gesture, action],
-                most=beyond * limit[action],
-            )
+            new = [span_s for span_s in dict.fromkeys(spans_s) if span_s not in known]
+            known.update(zip(new, self._weighed(motion, new, beyond * limit), strict=True))
+            terms[:, self._verified] = [known[span_s] for span_s in spans_s]
+            terms[..., 0] = np.where(self._verified, WRONG * wrong, terms[..., 0])
+            terms[self._verified & (terms.sum(axis=-1) > beyond * limit)] = np.inf
         return [self._ranked(each, limit) for each in terms]
+
+    def _weighed(
+        self, motion: RigidMotion, spans_s: Sequence[tuple[float, float]], most: FloatArray
+    ) -> FloatArray:
+        """Return the terms of spans, tokens apart, ``(g, a, 9)`` for the actions with examples."""
+        action = np.flatnonzero(self._verified)
+        if not spans_s:
+            return np.zeros((0, len(action), len(TERMS)))
+        terms = self._verification.terms(
+            traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m),
+            np.tile(action, len(spans_s)),
+            np.repeat(np.arange(len(spans_s)), len(action)),
+            wrong=np.zeros(len(spans_s) * len(action)),
+            most=np.tile(most[action], len(spans_s)),
+        )
+        return terms.reshape(len(spans_s), len(action), len(TERMS))
 
     def _ranked(self, terms: FloatArray, limit: FloatArray) -> list[Match]:
         """Return the matches of one gesture, the best first, from its terms ``(a, 9)``.
@@ -366,14 +396,21 @@ class _Remembering:
 
     def __init__(self, recognizer: Recognizer) -> None:
         self._recognizer = recognizer
-        self._known: Fits = {}
-        self.named = recognizer.named
+        self._fits: Fits = {}
+        self._terms: Terms = {}
 
     def chosen(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Segment]:
         """Choose as the recognizer does, and forget what is over."""
         begin_s = motion.time_s[0]
-        self._known = {each: fit for each, fit in self._known.items() if each[1] >= begin_s}
-        return self._recognizer.chosen(motion, runs, self._known)
+        self._fits = {each: fit for each, fit in self._fits.items() if each[1] >= begin_s}
+        self._terms = {each: terms for each, terms in self._terms.items() if each[0] >= begin_s}
+        return self._recognizer.chosen(motion, runs, self._fits)
+
+    def named(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
+    ) -> list[Span]:
+        """Name as the recognizer does."""
+        return self._recognizer.named(motion, runs, segments, self._terms)
 
 
 def _span(name: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[Match]) -> Span:

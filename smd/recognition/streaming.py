@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Protocol, TypeAlias
 
@@ -72,6 +72,8 @@ class RecognitionStream:
     horizon_s
         How long after its last movement a span is final, at least `BLOCK_S`; longer is nearer
         to the offline pass.
+    listener
+        Called with each piece of smoothed motion, as it follows.
     """
 
     def __init__(
@@ -80,8 +82,10 @@ class RecognitionStream:
         *,
         figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
         horizon_s: float = HORIZON_S,
+        listener: Callable[[RigidMotion], None] | None = None,
     ) -> None:
         self._spotter = spotter
+        self._listener = listener
         self._figure_height_m = figure_height_m
         self._settling_s = horizon_s - 2.0 * STEP_S
         self._smoothing = SmoothingStream()
@@ -90,6 +94,7 @@ class RecognitionStream:
         self._look_s = -np.inf  # when to look next
         self._decided_s = -np.inf  # what begins earlier is decided
         self._forgotten = 0  # runs before the motion that is kept
+        self._ahead: tuple[RigidMotion, Sequence[TokenRun], list[Segment]] | None = None
         self._seen: tuple[list[Movement], int, list[Segment]] = [], 0, []  # last, and its answer
 
     def push(
@@ -110,6 +115,7 @@ class RecognitionStream:
         self._smoothing.push(time_s, position_m, orientation_xyzw)
         self._given.append((time_s, drawing))
         if time_s < self._look_s:
+            self._name_ahead()
             return []
         self._look_s = time_s + BLOCK_S
         self._extend(self._smoothing.ready())
@@ -122,6 +128,8 @@ class RecognitionStream:
 
     def _extend(self, new: Arrays | None) -> None:
         if new is not None:
+            if self._listener:
+                self._listener(RigidMotion(*new))
             kept = self._arrays or tuple(array[:0] for array in new)
             self._arrays = tuple(map(np.concatenate, zip(kept, new, strict=True)))
 
@@ -138,17 +146,20 @@ class RecognitionStream:
         final: list[Span] = []
         needed_s = settled_s
         due_s = next((run.end_s for run in runs[first:] if run.token != STILL), np.inf)
-        if due_s <= settled_s:
+        if due_s <= settled_s + BLOCK_S:  # now or before the next look: what is ready will not wait
             segments = self._undecided(motion, runs, first)
             ends_s = [runs[segment.last - 1].end_s for segment in segments]
             count = sum(end_s <= settled_s for end_s in ends_s)
-            due_s = np.inf
             if count:
                 final = list(self._spotter.named(motion, runs, segments[:count]))
                 self._decided_s = final[-1].end_s
-            if count < len(segments):
-                needed_s = min(settled_s, runs[segments[count].first].start_s)
-                due_s = ends_s[count]
+            if count < len(segments) and segments[count].last < len(runs):  # likely to stay so
+                self._ahead = motion, runs, segments[count : count + 1]
+            if due_s <= settled_s:
+                due_s = np.inf
+                if count < len(segments):
+                    needed_s = min(settled_s, runs[segments[count].first].start_s)
+                    due_s = ends_s[count]
         self._look_s = min(self._look_s, due_s + self._settling_s)
         numbered = [
             replace(
@@ -161,6 +172,12 @@ class RecognitionStream:
         if np.isfinite(settled_s):
             self._forget(runs, needed_s)
         return numbered
+
+    def _name_ahead(self) -> None:
+        """Name what falls due next while there is time; a spotter may remember it."""
+        if self._ahead:
+            self._spotter.named(*self._ahead)
+            self._ahead = None
 
     def _undecided(
         self, motion: RigidMotion, runs: Sequence[TokenRun], first: int

@@ -216,11 +216,10 @@ def test_what_is_no_file_is_named(tmp_path):
 def test_an_unknown_suffix_is_named(tmp_path):
     path = tmp_path / "take.mp4"
     path.write_text(HEADER + GOOD)
-    assert refused(path) == "expected a file with suffix .csv .json .tum .txt, found '.mp4'"
+    suffixes = ".csv .json .tum .bsor .txt .usd .usda .usdc .usdz"
+    assert refused(path) == f"expected a file with suffix {suffixes}, found '.mp4'"
     (tmp_path / "take").write_text(HEADER + GOOD)
-    assert refused(tmp_path / "take") == (
-        "expected a file with suffix .csv .json .tum .txt, found no suffix"
-    )
+    assert refused(tmp_path / "take") == f"expected a file with suffix {suffixes}, found no suffix"
 
 
 def test_a_recording_that_is_lost_all_along_is_refused(tmp_path):

@@ -1,0 +1,129 @@
+"""``smd teach``: an action by three performances, with the prop in the hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from smd.cli import capturing, reading
+
+if TYPE_CHECKING:
+    from smd.capture.source import Frame
+    from smd.doodle import Doodle
+
+
+def teach(
+    action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
+    library: Annotated[
+        Path, typer.Option("--library", help="The library to extend; made where there is none.")
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
+    ] = Path("lessons"),
+    performances: Annotated[
+        int, typer.Option(help="How often the gesture is drawn.", min=1, max=20)
+    ] = 3,
+    clip: Annotated[
+        str | None, typer.Option("--clip", help="Perform it with the clip of this action.")
+    ] = None,
+    base: Annotated[
+        str | None,
+        typer.Option("--from", help="Begin a new library with all actions of this one."),
+    ] = None,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
+    ] = False,
+    device: capturing.Devices = None,
+    rate: capturing.Rate = 90.0,
+    source: capturing.Source = "openvr",
+    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
+    mount: reading.Mount = None,
+) -> None:
+    """Teach an action by three performances.
+
+    Hold the trigger during each. The grip discards the last one; their recordings are kept.
+    """
+    from smd.capture.hand import grips, stretches
+    from smd.capture.opening import open_source
+    from smd.capture.recorder import Recorder
+    from smd.capture.selection import chosen_devices, require_trigger
+    from smd.capture.shelf import Shelf
+    from smd.capture.take import record, require_rate
+    from smd.cli.learn import Lesson
+    from smd.errors import CaptureError, SmdError
+    from smd.formats import Mount
+
+    require_rate(rate)
+    lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
+    options = reading.ReadingOptions(mount=None if mount is None else str(Mount.parse(mount)))
+    taken: list[tuple[Path, Doodle]] = []
+    with open_source(source, rate) as opened:
+        there = opened.devices()
+        require_trigger(there)
+        names = {each.serial: each.name for each in chosen_devices(there, device or ())}
+        shelf = Shelf(output, action)
+
+        def perform(frames: Iterator[Frame]) -> None:
+            path = shelf.next().with_suffix(".csv")
+            with Recorder(path, names) as recorder:
+                for _ in record(frames, recorder, names, hold_to_draw=True):
+                    pass
+            try:
+                doodle = _drawn(path, options)
+                typer.echo(_told(path, doodle, figure_height))
+                taken.append((path, doodle))
+            except SmdError as error:
+                typer.echo(f"  not counted: {error}")
+            for serial in names:
+                opened.tick(serial)
+
+        typer.echo(_asked(action, 1, performances))
+        for held, frames in stretches(opened.poses()):
+            if held:
+                perform(frames)
+                if len(taken) == performances:
+                    break
+                typer.echo(_asked(action, len(taken) + 1, performances))
+            else:
+                for _ in grips(frames):
+                    if taken:
+                        path, _doodle = taken.pop()
+                        shelf.discard(path.with_suffix(""))
+                        typer.echo(f"  {path.name}: discarded")
+    if len(taken) < performances:
+        raise CaptureError(
+            f"expected {performances} performances of {action!r}, got {len(taken)}: "
+            "perform it again, or ask for fewer with --performances"
+        )
+    files, doodles = ([one[i] for one in taken] for i in (0, 1))
+    typer.echo("\n".join(lesson.learned(files, doodles, "", figure_height)))  # type: ignore[arg-type]
+
+
+def _asked(action: str, number: int, of: int) -> str:
+    """Return what the user is asked for."""
+    return f"{number} of {of}: hold the trigger, draw {action}, let go"
+
+
+def _drawn(path: Path, options: reading.ReadingOptions) -> Doodle:
+    """Return the one doodle of a performance: that of the device whose trigger was held."""
+    from smd.errors import RecordingError
+
+    drawn = [doodle for doodle in options.read(path).doodles if doodle.drawing.any()]
+    if len(drawn) != 1:
+        devices = ", ".join(dict.fromkeys(doodle.device for doodle in drawn)) or "none"
+        raise RecordingError(
+            f"{path}: expected one doodle of one device, found {len(drawn)} of {devices}: "
+            "name one with --device, and keep it in sight"
+        )
+    return drawn[0]
+
+
+def _told(path: Path, doodle: Doodle, figure_height_m: float) -> str:
+    """Return one line on the tokens of a performance."""
+    from smd.recognition.learning import doodle_runs, without_rest
+
+    tokens = [str(run.token) for run in without_rest(doodle_runs(doodle, figure_height_m))]
+    return f"  {path.name}: {doodle.duration_s:.1f} s, {' '.join(tokens) or 'no movement'}"
