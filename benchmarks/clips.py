@@ -2,12 +2,14 @@
 
 Budgets, which the tests defend: planted joints move at most 0.02 m/s, no sole is more than 2 mm
 under the ground, cyclic clips close to 1e-6 rad, knees and elbows bend 0 to 150 degrees, nothing
-turns faster than 30 rad/s, and a slow body is at most 20 mm off its feet.
+turns faster than 30 rad/s, and a slow body is at most 20 mm off its feet: a push leans on what it
+pushes, and who sits or lies rests on more than soles.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -15,8 +17,12 @@ from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.feet import FootShape
 from actions_library.authoring.humanoid import humanoid_skeleton
 from actions_library.authoring.limbs import foot_shape
+from actions_library.folder import load_library
+from actions_library.importers import import_file
+from smd.character.character import Character
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
+from smd.character.skinning import skin_points
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
     inverse,
@@ -226,12 +232,39 @@ def log_dimensionless_jerk(path_m: FloatArray, rate_hz: float) -> float:
     return float(-np.log(duration**3 / peak**2 * np.sum(jerk**2) / rate_hz))
 
 
+def lowest_of_body_m(clip: Clip, character: Character) -> float:
+    """Return the least height of the skinned meshes, over every third frame."""
+    rotation, position = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    return min(
+        float(skin_points(mesh, clip.skeleton, rotation[::3], position[::3])[..., 1].min())
+        for mesh in character.meshes
+    )
+
+
+def captured_hand_log_jerk() -> float | None:
+    """Return the hands' smoothness in CMU's walk, for comparison; None where it is absent."""
+    path = Path(__file__).parents[2] / "shared" / "data" / "clips" / "bvh" / "cmu_12_01_walk.bvh"
+    if not path.is_file():
+        return None
+    imported = import_file(path)
+    part = imported.part(imported.animations[0], 1.0, 2.1)  # a cycle
+    _, position = forward_kinematics(imported.skeleton, part.rotation_xyzw, part.translation_m)
+    hips = position[:, 0]
+    return max(
+        log_dimensionless_jerk(
+            position[:, imported.skeleton.index(f"{side}Hand")] - hips, part.rate_hz
+        )
+        for side in ("Left", "Right")
+    )
+
+
 def main() -> None:
     """Print the table."""
     print("clip             frames  slide  lowest    pose    seam    turn  travel    feet", end="")
-    print("     knee    elbow balance  hand")
+    print("     knee    elbow balance  hand    body")
     print("                           m/s      mm     rad           rad/s       m       m", end="")
-    print("      deg      deg      mm   LDJ")
+    print("      deg      deg      mm   LDJ  mm low")
+    character = load_library().character
     for clip in humanoid_clips(humanoid_skeleton()):
         q = measure(clip)
         closure = f"{q.pose_gap_rad:7.4f} {q.seam_kink:7.2f}" if clip.cyclic else 15 * " "
@@ -241,7 +274,10 @@ def main() -> None:
             f" {q.knee_deg[0]:4.0f}-{q.knee_deg[1]:3.0f}"
             f" {q.elbow_deg[0]:4.0f}-{q.elbow_deg[1]:3.0f}"
             f" {1e3 * q.off_balance_m:7.1f} {q.hand_log_jerk:5.1f}"
+            f" {1e3 * lowest_of_body_m(clip, character):7.0f}"
         )
+    if (jerk := captured_hand_log_jerk()) is not None:
+        print(f"a cycle of CMU's captured walk: hand LDJ {jerk:.1f}")
 
 
 if __name__ == "__main__":
