@@ -150,7 +150,12 @@ def _never_tracked(recording: Recording) -> Iterator[str]:
 
 
 def animate(
-    score: Score, recording: Recording, library: Library, *, rate_hz: float = 24.0
+    score: Score,
+    recording: Recording,
+    library: Library,
+    *,
+    rate_hz: float = 24.0,
+    expressiveness: float = 1.0,
 ) -> Performance:
     """Act out a Score: each device a character, each phrase an action on the doodle's path.
 
@@ -165,6 +170,8 @@ def animate(
     rate_hz
         Frames per second. At 24, what Blender's importer leaves its scene at, a file plays at its
         true speed there.
+    expressiveness
+        How much of the Score's Effort is played, from 0 (neutral clips) to 2.
 
     Raises
     ------
@@ -175,4 +182,4 @@ def animate(
     """
     from smd.transfer.perform import perform
 
-    return perform(score, recording, library, rate_hz=rate_hz)
+    return perform(score, recording, library, rate_hz=rate_hz, expressiveness=expressiveness)

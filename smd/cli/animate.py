@@ -19,6 +19,7 @@ def animate(
     ] = None,
     library: reading.LibraryFolder = None,
     fps: reading.FramesPerSecond = 24.0,
+    expressiveness: reading.Expressiveness = 1.0,
 ) -> None:
     """Act out a Score, perhaps corrected by hand.
 
@@ -40,5 +41,6 @@ def animate(
     if library is None and score.library:
         library = score_file.parent / score.library
     shelf = smd.load_library(library)
-    smd.write(smd.animate(score, take, shelf, rate_hz=fps), output)
+    performance = smd.animate(score, take, shelf, rate_hz=fps, expressiveness=expressiveness)
+    smd.write(performance, output)
     typer.echo(f"{output}: {reading.summary(take, score)}")

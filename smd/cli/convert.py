@@ -24,6 +24,7 @@ def convert(
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
     fps: reading.FramesPerSecond = 24.0,
+    expressiveness: reading.Expressiveness = 1.0,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -52,7 +53,9 @@ def convert(
 
     def one(index: int, file: Path) -> None:
         recording, score = understood(file)
-        performance = smd.animate(score, recording, shelf, rate_hz=fps)
+        performance = smd.animate(
+            score, recording, shelf, rate_hz=fps, expressiveness=expressiveness
+        )
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in score.warnings)]))

@@ -60,6 +60,14 @@ Tolerance = Annotated[
         max=20.0,
     ),
 ]
+Expressiveness = Annotated[
+    float,
+    typer.Option(
+        help="How much of the Effort is played: 0 neutral clips, 1 as read, up to 2.",
+        min=0.0,
+        max=2.0,
+    ),
+]
 FramesPerSecond = Annotated[
     float, typer.Option("--fps", help="Frames per second of the animation.", min=1.0, max=240.0)
 ]

@@ -38,7 +38,7 @@ def course(
     at = Placement(path.at(start_s), float(path.heading_at(start_s)))
     moves: list[Move] = []
     rest = IDLE
-    cast = [None if span.phrase is None else pieces.pieces[span.phrase.action] for span in spans]
+    cast = [None if span.phrase is None else pieces.of(span.phrase) for span in spans]
     for i, (span, piece) in enumerate(zip(spans, cast, strict=True)):
         last = i + 1 == len(spans)
         if piece is None:

@@ -41,9 +41,22 @@ class Leg:
     left_m: float
 
 
+LOW_AT_REST = 0.3
+"""Height at rest, as a share of the body's, below which a joint that touches is a foot: hands that
+crawl touch the ground too."""
+
+
 def feet_of(clip: Clip) -> tuple[int, ...]:
-    """Return the joints of a clip's feet: contact joints below no other one, as toes are."""
-    contact = {clip.skeleton.index(name) for name in clip.contact_joints}
+    """Return the joints of a clip's feet: low contact joints below no other one, as toes are."""
+    skeleton = clip.skeleton
+    if not clip.contact_joints:
+        return ()
+    _, place = forward_kinematics(
+        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
+    )
+    up = place[:, 1] - place[:, 1].min()
+    contact = {skeleton.index(name) for name in clip.contact_joints}
+    contact = {joint for joint in contact if up[joint] < LOW_AT_REST * up.max()}
     feet = []
     for joint in sorted(contact):
         above = int(clip.skeleton.parents[joint])

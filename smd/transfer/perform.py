@@ -38,7 +38,12 @@ TURNING_S = 0.1
 
 
 def perform(
-    score: Score, recording: Recording, library: Library, *, rate_hz: float = RATE_HZ
+    score: Score,
+    recording: Recording,
+    library: Library,
+    *,
+    rate_hz: float = RATE_HZ,
+    expressiveness: float = 1.0,
 ) -> Performance:
     """Act out a Score.
 
@@ -52,14 +57,19 @@ def perform(
         Character and clips.
     rate_hz
         Frames per second, positive.
+    expressiveness
+        How much of the phrases' Effort is played, from 0 (neutral clips) to 2.
 
     Raises
     ------
     ScoreError
         If an action, a device or a time is not there.
     TransferError
-        If ``rate_hz`` is not positive and finite, or the Score has no performers.
+        If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2, or
+        the Score has no performers.
     """
+    if not 0.0 <= expressiveness <= 2.0:
+        raise TransferError(f"expressiveness: expected 0 to 2, got {expressiveness!r}")
     if not (np.isfinite(rate_hz) and rate_hz > 0):
         raise TransferError(f"rate_hz: expected a positive number, got {rate_hz!r}")
     if not score.performers:
@@ -72,8 +82,8 @@ def perform(
     frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
     time_s = start_s + np.arange(frames) / rate_hz
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    actions = {phrase.action for part in score.performers for phrase in part.phrases}
-    pieces = repertoire(library, actions)
+    phrases = [phrase for part in score.performers for phrase in part.phrases]
+    pieces = repertoire(library, phrases, expressiveness=expressiveness)
     actors = tuple(
         act(part, recording, stage, library.character, pieces, time_s, rate_hz, ahead)
         for part, ahead in zip(score.performers, _idling_ahead(), strict=False)

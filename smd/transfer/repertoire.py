@@ -8,8 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from actions_library.library import IDLE, Library
+from laban import Effort
 from smd.character.clip import Clip
 from smd.geometry.arrays import BoolArray, FloatArray
+from smd.score import Phrase
+from smd.transfer.expression import body_of, expressive
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.legs import Leg, feet_of, legs_of, world_of, yaw_of
@@ -69,9 +72,10 @@ class Repertoire:
 
     Attributes
     ----------
-    pieces : by action.
+    pieces : by action and how it is played, as `piece_name` calls them.
     legs : of the character.
     rests : what is idled in after an action, where that is not idling.
+    expressiveness : how much of a phrase's Effort is played; 0 is neutral.
     leaving : what leads out of such a rest, by the rest's name: its clip begins as that one does.
     """
 
@@ -79,19 +83,48 @@ class Repertoire:
     legs: tuple[Leg, ...]
     rests: Mapping[str, str] = field(default_factory=dict)
     leaving: Mapping[str, str] = field(default_factory=dict)
+    expressiveness: float = 0.0
 
     @property
     def idle(self) -> Piece:
         """What is played where nothing is performed."""
         return self.pieces[IDLE]
 
+    def of(self, phrase: Phrase) -> Piece:
+        """Return the piece that a phrase is played with."""
+        return self.pieces[piece_name(phrase.action, phrase.effort, self.expressiveness)]
+
     def rest_after(self, action: str) -> str:
         """Return the action whose clip is idled in after another one."""
         return self.rests.get(action, IDLE)
 
 
-def repertoire(library: Library, actions: Iterable[str]) -> Repertoire:
-    """Study the clips of some actions, and of idling."""
+EFFORT_STEPS = 5
+"""Steps from neutral to a pole in which Effort is played: phrases that are nearer share a clip."""
+
+
+def played_effort(effort: Effort, expressiveness: float) -> Effort:
+    """Return the Effort that is played for one that was read, in steps, within its poles."""
+
+    def stepped(value: float | None) -> float:
+        scaled = 0.0 if value is None else float(np.clip(expressiveness * value, -1.0, 1.0))
+        return round(scaled * EFFORT_STEPS) / EFFORT_STEPS
+
+    return Effort(time=stepped(effort.time), weight=stepped(effort.weight))
+
+
+def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
+    """Return what a piece is called: the action, and its Effort where it is not neutral."""
+    played = played_effort(effort, expressiveness)
+    if not played.time and not played.weight:
+        return action
+    return f"{action} time {played.time:+.1f} weight {played.weight:+.1f}"
+
+
+def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: float) -> Repertoire:
+    """Study the clips of some phrases, as they are played, and of idling."""
+    phrases = list(phrases)
+    actions = {phrase.action for phrase in phrases}
     rests = {name: rest for name in actions if (rest := library.action(name).rest)}
     leaving = _leaving(library, set(rests.values()))
     names = sorted({IDLE, *actions, *rests.values(), *leaving.values()})
@@ -101,7 +134,20 @@ def repertoire(library: Library, actions: Iterable[str]) -> Repertoire:
         name: piece_of(clip, travels=library.action(name).travels, legs=legs)
         for name, clip in zip(names, clips, strict=True)
     }
-    return Repertoire(pieces, legs, rests, leaving)
+    body = body_of(clips[0])
+    for phrase in phrases:
+        name = piece_name(phrase.action, phrase.effort, expressiveness)
+        if name not in pieces:
+            neutral = pieces[phrase.action]
+            clip = expressive(
+                neutral.clip,
+                played_effort(phrase.effort, expressiveness),
+                body,
+                travels=neutral.travels,
+            )
+            feet = tuple(neutral.stands)
+            pieces[name] = piece_of(clip, travels=neutral.travels, legs=legs, feet=feet)
+    return Repertoire(pieces, legs, rests, leaving, expressiveness)
 
 
 def _leaving(library: Library, rests: set[str]) -> dict[str, str]:
@@ -117,9 +163,11 @@ def _leaving(library: Library, rests: set[str]) -> dict[str, str]:
     return found
 
 
-def piece_of(clip: Clip, *, travels: bool, legs: Sequence[Leg]) -> Piece:
-    """Study one clip."""
-    stands = standing(clip, legs)
+def piece_of(
+    clip: Clip, *, travels: bool, legs: Sequence[Leg], feet: Sequence[int] | None = None
+) -> Piece:
+    """Study one clip; ``feet`` are those that touch in it, where they are known."""
+    stands = standing(clip, legs, feet)
     gait = gait_of(clip, stands) if travels and clip.cyclic else None
     yaw = {
         leg.foot: yaw_of(

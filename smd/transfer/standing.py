@@ -18,19 +18,23 @@ RESTING_M_S = 0.1
 """Speed up to which a touching point rests: a heel that has landed does, one that drags not."""
 
 
-def standing(clip: Clip, legs: Sequence[Leg]) -> dict[int, BoolArray]:
+def standing(
+    clip: Clip, legs: Sequence[Leg], feet: Sequence[int] | None = None
+) -> dict[int, BoolArray]:
     """Return when each foot stands ``(n,)``, by its joint.
 
     It stands when the clip says that it or a joint below it touches, and also where its heel or
     its ball rests on the ground next to that: clips label soles and toes, but a step begins on
     the heel.
     """
-    labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet_of(clip)}
+    feet = feet_of(clip) if feet is None else feet
+    labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet}
     for joint, touches in zip(clip.contact_joints, clip.contacts.T, strict=True):
         foot = clip.skeleton.index(joint)
-        while foot not in labelled:
+        while foot >= 0 and foot not in labelled:
             foot = int(clip.skeleton.parents[foot])
-        labelled[foot] |= touches
+        if foot >= 0:  # no foot: a hand
+            labelled[foot] |= touches
     for leg in legs:
         if leg.foot in labelled and labelled[leg.foot].any():
             labelled[leg.foot] |= _rests(clip, leg)
