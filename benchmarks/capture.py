@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from array import array
 from functools import partial
 from pathlib import Path
 
@@ -167,9 +168,8 @@ def delay(minutes: float) -> None:
     library = load_library()
     names = {"LHR-1": "left"}
     live = LiveRecognition(Recognizer(library), load_effort_model(), names)
-    computing_s: list[float] = []
-    deciding_s: list[float] = []
-    held_mib: list[float] = []
+    computing_s, deciding_s, times = array("d"), array("d"), array("d")  # small, for memory's sake
+    held_mib = []
     phrases = 0
 
     def understand(time_s: float, rows: dict[str, object]) -> None:
@@ -181,7 +181,6 @@ def delay(minutes: float) -> None:
             phrases += len(decided)
             deciding_s.append(passed_s)
 
-    times = []
     with open_source("openvr", 90.0) as source, Beside() as beside:
         for frame in source.poses():
             times.append(frame.time_s)

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import queue
+import sys
 import threading
 from collections.abc import Callable
 from types import TracebackType
 
 MOST_WAITING = 10_000
 """Jobs that may wait, two minutes of frames; a replay, which is fast, waits for them here."""
+
+SWITCH_S = 0.5e-3
+"""How long the capture waits for its turn while a job computes: several times a frame, once after
+each call to the runtime. Python's own 5 ms add up to lost frames."""
 
 
 class Beside:
@@ -24,6 +29,8 @@ class Beside:
         self._worker.start()
 
     def __enter__(self) -> Beside:
+        self._interval_s = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_S)
         return self
 
     def __exit__(
@@ -34,6 +41,7 @@ class Beside:
     ) -> None:
         self._jobs.put(None)
         self._worker.join()
+        sys.setswitchinterval(self._interval_s)
         if error is None:
             self._raise()
 

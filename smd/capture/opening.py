@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -38,9 +39,12 @@ def open_source(name: str, rate_hz: float, frame: SourceFrame | None = None) -> 
         If a recording cannot be read.
     """
     source = _source(name, rate_hz, frame)
+    gc.collect()
+    gc.freeze()  # going through all that is loaded would stop every thread for some 20 ms
     try:
         yield source
     finally:
+        gc.unfreeze()
         source.close()
 
 
