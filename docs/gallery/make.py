@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import shutil
 import tempfile
+from itertools import product
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFont
 
 import smd
 from actions_library.library import Library
+from actions_library.storage import write_clip_file
 from exporters.action_picture import write_action_picture
 from exporters.filmstrip import write_filmstrip
 from exporters.timeline import write_timeline
+from laban import Effort
+from smd.transfer.expression import body_of, expressive
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE.parents[1] / "recordings"
@@ -26,6 +31,7 @@ def main() -> None:
     library = smd.load_library()
     draw_stories(library)
     draw_actions(library)
+    draw_efforts(library, "slash")
     for picture in [*HERE.glob("*.png"), *(HERE / "actions").glob("*.png")]:
         # 256 colours: a third of the size. Maximum coverage keeps the small patches that tell
         # phrases apart; median cut drops them.
@@ -43,6 +49,32 @@ def draw_actions(library: Library) -> None:
         height = round(image.height * ACTION_WIDTH_PX / image.width)
         image.resize((ACTION_WIDTH_PX, height), Image.Resampling.LANCZOS).save(path)
         print(action.name)
+
+
+def draw_efforts(library: Library, action: str) -> None:
+    """Draw an action's clip in its nine states of Time and Weight."""
+    body, clip = body_of(library.clip("idle")), library.clip(action)
+    rows = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        shutil.copy(library.folder / library.character_file, folder)
+        for time, weight in product((-1.0, 0.0, 1.0), repeat=2):
+            effort = Effort(time=time, weight=weight)
+            called = f"time {time:+.0f}, weight {weight:+.0f}"
+            played = expressive(clip, effort, body, travels=library.action(action).travels)
+            write_clip_file(folder / "clip.usdc", played, library.character_file)
+            write_filmstrip(folder / "clip.usdc", folder / "strip.png", rows=1)
+            row = Image.open(folder / "strip.png").convert("RGB")
+            ImageDraw.Draw(row).rectangle((0, 0, 210, row.height), fill=(250, 250, 250))
+            font = ImageFont.load_default(24)
+            for line, text in enumerate(called.split(", ")):
+                ImageDraw.Draw(row).text((12, 60 + 34 * line), text, (35, 38, 42), font)
+            rows.append(row.crop((0, 40, row.width, row.height)))
+    sheet = Image.new("RGB", (rows[0].width, sum(row.height for row in rows)), "white")
+    for i, row in enumerate(rows):
+        sheet.paste(row, (0, i * row.height))
+    size = (ACTION_WIDTH_PX, round(sheet.height * ACTION_WIDTH_PX / sheet.width))
+    sheet.resize(size, Image.Resampling.LANCZOS).save(HERE / "efforts.png")
 
 
 def draw_stories(library: Library) -> None:
