@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade, UsdSkel, Vt
 
+from actions_library.naming import numbered
 from smd.character.character import MAX_INFLUENCES, Character, Mesh
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -35,17 +36,7 @@ _ROLES = "smd:roles"
 
 def unique_identifiers(names: Iterable[str]) -> list[str]:
     """Return a valid USD prim name for each name, all different."""
-    taken: set[str] = set()
-    result = []
-    for name in names:
-        base = Tf.MakeValidIdentifier(name)
-        candidate, count = base, 1
-        while candidate in taken:
-            count += 1
-            candidate = f"{base}_{count}"
-        taken.add(candidate)
-        result.append(candidate)
-    return result
+    return numbered(Tf.MakeValidIdentifier(name) for name in names)
 
 
 def joint_paths(skeleton: Skeleton) -> list[str]:

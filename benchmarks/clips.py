@@ -22,6 +22,7 @@ from actions_library.importers import import_file
 from smd.character.character import Character
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
+from smd.character.quality import pose_gap_rad
 from smd.character.skinning import skin_points
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
@@ -130,12 +131,6 @@ def lowest_sole_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> flo
         world = position[:, j, None] + rotate(rotation[:, j, None], local)
         lowest = min(lowest, float(world[..., 1].min()))
     return lowest
-
-
-def pose_gap_rad(clip: Clip) -> float:
-    """Return the greatest difference of a joint's local turn between first and last frame."""
-    dots = np.abs(np.sum(clip.rotation_xyzw[0, 1:] * clip.rotation_xyzw[-1, 1:], axis=-1))
-    return float(2.0 * np.arccos(np.clip(dots, -1.0, 1.0)).max())
 
 
 def joint_velocity_rad_s(clip: Clip) -> FloatArray:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from actions_library.naming import numbered
 from smd.character.character import MAX_INFLUENCES, Mesh
 from smd.character.roles import body_plan
 from smd.character.skeleton import Skeleton
@@ -116,17 +117,7 @@ def fault(path: Path, place: str, expected: str, found: object) -> ImportedFileE
 
 def unique_names(names: Sequence[str]) -> tuple[str, ...]:
     """Return the names, numbered from the second of a kind on; who has none is a joint."""
-    taken: set[str] = set()
-    result = []
-    for i, name in enumerate(names):
-        base = name or f"joint_{i}"
-        candidate, count = base, 1
-        while candidate in taken:
-            count += 1
-            candidate = f"{base}_{count}"
-        taken.add(candidate)
-        result.append(candidate)
-    return tuple(result)
+    return tuple(numbered(name or f"joint_{i}" for i, name in enumerate(names)))
 
 
 def rigid(

@@ -289,13 +289,19 @@ class Recognizer:
     ) -> FloatArray:
         """Return how unlike its action's examples each proposal is, its tokens apart.
 
-        That is infinity where it is beyond the limit, and 0 where there are no examples.
+        That is infinity where it is beyond the limit or another action fits the same stretch
+        better, and 0 where there are no examples.
         """
         span_s: dict[tuple[int, int], tuple[float, float]] = {}
         for first, last in dict.fromkeys((one.first, one.last) for one in proposed):
             (whole,) = with_loose_ends([Segment(0, first, last)], runs)
             span_s[first, last] = runs[whole.first].start_s, runs[whole.last - 1].end_s
+        strokes = np.concatenate([[0], np.cumsum([run.token != STILL for run in runs])])
         stretches = [(one.action, *span_s[one.first, one.last]) for one in proposed]
+        wrong_of = {
+            stretch: one.distance / max(int(strokes[one.last] - strokes[one.first]), 1)
+            for stretch, one in zip(stretches, proposed, strict=True)
+        }
         missing = [
             each
             for each in dict.fromkeys(stretches)
@@ -307,15 +313,15 @@ class Recognizer:
             gestures = traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m)
             action = np.array([each[0] for each in missing])
             gesture = np.array([place[each[1:]] for each in missing])
-            terms = self._verification.terms(
+            terms = self._verification.least_terms(
                 gestures,
                 action,
                 gesture,
-                wrong=np.zeros(len(missing)),
+                wrong=np.array([wrong_of[each] for each in missing]),
                 most=self._verification.limit[action],
                 every=GLANCE,
             )
-            known.update(zip(missing, terms.sum(axis=1).tolist(), strict=True))
+            known.update(zip(missing, terms[:, 1:].sum(axis=1).tolist(), strict=True))
         return np.array([known.get(each, 0.0) for each in stretches])
 
     def _matches(

@@ -139,6 +139,46 @@ class Verification:
             total[left] += terms[left, 1 + i]
         return terms
 
+    def least_terms(
+        self,
+        gestures: Traits,
+        action: IntArray,
+        gesture: IntArray,
+        *,
+        wrong: FloatArray,
+        most: FloatArray,
+        every: int = 1,
+    ) -> FloatArray:
+        """Return `terms`, of which only the least sum for each gesture has to be known.
+
+        For each gesture the action that its tokens and measures speak for is weighed first; others
+        are not looked into further (`inf`) once they cost more. The arguments are those of `terms`.
+        """
+        found = np.full((len(action), len(TERMS)), np.inf)
+        if not len(action):
+            return found
+        deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
+        glance = WEIGHTS[0] * wrong + (WEIGHTS[_MEASURES] * _oddness(deviation)).sum(axis=1)
+        order = np.lexsort((glance, gesture))
+        first = order[np.unique(gesture[order], return_index=True)[1]]
+        rest = np.setdiff1d(np.arange(len(action)), first)
+
+        def weigh(pairs: IntArray, bound: FloatArray) -> None:
+            found[pairs] = self.terms(
+                gestures,
+                action[pairs],
+                gesture[pairs],
+                wrong=wrong[pairs],
+                most=bound,
+                every=every,
+            )
+
+        weigh(first, most[first])
+        best = np.full(int(gesture.max()) + 1, np.inf)
+        np.minimum.at(best, gesture[first], found[first].sum(axis=1))
+        weigh(rest, np.minimum(most[rest], best[gesture[rest]]))
+        return found
+
 
 def verification_of(
     exemplars: Sequence[Exemplar | None], *, tolerance: float = 1.0
