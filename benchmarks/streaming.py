@@ -71,6 +71,19 @@ def names(spans: Sequence[Span]) -> list[str]:
     return [span.action for span in spans]
 
 
+def alike(spans: Sequence[Span], others: Sequence[Span]) -> int:
+    """Return how many of others are among spans: the same action, over most of its time."""
+    count = 0
+    for other in others:
+        count += any(
+            span.action == other.action
+            and min(span.end_s, other.end_s) - max(span.start_s, other.start_s)
+            > 0.5 * (other.end_s - other.start_s)
+            for span in spans
+        )
+    return count
+
+
 def main() -> None:
     """Print every figure."""
     library = load_library()
@@ -87,11 +100,14 @@ def main() -> None:
         for horizon_s in (HORIZON_S, 2.0 * HORIZON_S):
             found = [streamed(row, spotter, horizon_s) for row in played]
             same = sum(names(a) == names(b) for (a, _, _), b in zip(found, offline, strict=True))
+            told = [alike(a, b) for (a, _, _), b in zip(found, offline, strict=True)]
+            share = 100.0 * sum(told) / sum(map(len, offline))
             late_s = np.array([late for _, each, _ in found for late in each])
             cost = np.percentile([ms for *_, each in found for ms in each], [50, 99])
             print(
                 f"{name}, horizon {horizon_s:g} s: {same} of {len(played)} rows of "
-                f"{len(GESTURES)} as offline; final after {np.median(late_s):.2f} s, "
+                f"{len(GESTURES)} as offline, {share:.1f} % of their spans; "
+                f"final after {np.median(late_s):.2f} s, "
                 f"{100.0 * np.mean(late_s > horizon_s):.1f} % later than the horizon, "
                 f"at most {late_s.max():.2f} s; "
                 f"{cost[0]:.2f} ms a sample, in the busiest of 100 seconds {cost[1]:.2f} ms"
