@@ -51,6 +51,21 @@ SEGMENTS = (
 """From joint, to joint, share of the body's mass, place of its centre on the way."""
 
 
+LIMITS_DEG = {
+    "neck yaw": (-80.0, 80.0),
+    "neck lean": (-75.0, 55.0),
+    "trunk yaw": (-45.0, 45.0),
+    "trunk lean": (-25.0, 50.0),
+    "trunk tilt": (-30.0, 30.0),
+    "hip flexion": (-55.0, 160.0),
+    "hip abduction": (-20.0, 45.0),
+    "ankle": (-70.0, 60.0),
+}
+"""What a supple body reaches: head from chest, chest from pelvis, thigh from pelvis (bent up is
+above 0), foot from shin (up is above 0). Between a squat and a split there is the pelvis's own
+share, which the bend of the hip includes."""
+
+
 @dataclass(frozen=True, slots=True)
 class Quality:
     """One clip's figures; see the columns of the printed table."""
@@ -65,6 +80,7 @@ class Quality:
     elbow_deg: tuple[float, float]
     hand_log_jerk: float
     off_balance_m: float
+    beyond_limits_deg: float
 
 
 def measure(clip: Clip) -> Quality:
@@ -86,7 +102,57 @@ def measure(clip: Clip) -> Quality:
             for side in SIDES
         ),
         off_balance_m=off_balance_m(clip, rotation, position),
+        beyond_limits_deg=beyond_limits_deg(clip, rotation, position),
     )
+
+
+def beyond_limits_deg(clip: Clip, rotation: FloatArray, position: FloatArray) -> float:
+    """Return by how much any of `LIMITS_DEG` is exceeded; 0 or below where none is."""
+    worst = -np.inf
+    for name, angle in angles_deg(clip, rotation, position).items():
+        low, high = LIMITS_DEG[name]
+        worst = max(worst, float((low - angle).max()), float((angle - high).max()))
+    return worst
+
+
+def angles_deg(clip: Clip, rotation: FloatArray, position: FloatArray) -> dict[str, FloatArray]:
+    """Return angles of joints over time, of both sides one after the other."""
+    from scipy.spatial.transform import Rotation
+
+    joint = clip.skeleton.index
+
+    def between(above: str, below: str) -> FloatArray:
+        local = multiply(inverse(rotation[:, joint(above)]), rotation[:, joint(below)])
+        return np.degrees(Rotation.from_quat(local).as_euler("YXZ")).T
+
+    def way(start: str, end: str) -> FloatArray:
+        bone = position[:, joint(end)] - position[:, joint(start)]
+        return bone / np.linalg.norm(bone, axis=-1, keepdims=True)
+
+    neck, trunk = between("upper_chest", "head"), between("hips", "upper_chest")
+    flexion, abduction, ankle = [], [], []
+    for side, out in (("left", 1.0), ("right", -1.0)):
+        upper, lower, foot, toes = (
+            f"{side}_{part}" for part in ("upper_leg", "lower_leg", "foot", "toes")
+        )
+        thigh = rotate(inverse(rotation[:, joint("hips")]), way(upper, lower))
+        flexion.append(np.degrees(np.arctan2(thigh[:, 2], -thigh[:, 1])))
+        abduction.append(np.degrees(np.arcsin(np.clip(out * thigh[:, 0], -1.0, 1.0))))
+        rest = [clip.skeleton.rest_translation_m[joint(part)] for part in (foot, toes)]
+        at_rest = rest[0] @ rest[1] / np.linalg.norm(rest[0]) / np.linalg.norm(rest[1])
+        cosine = np.sum(way(lower, foot) * way(foot, toes), axis=-1)
+        bend = np.arccos(np.clip(cosine, -1.0, 1.0)) - np.arccos(at_rest)
+        ankle.append(np.degrees(bend))
+    return {
+        "neck yaw": neck[0],
+        "neck lean": neck[1],
+        "trunk yaw": trunk[0],
+        "trunk lean": trunk[1],
+        "trunk tilt": trunk[2],
+        "hip flexion": np.concatenate(flexion),
+        "hip abduction": np.concatenate(abduction),
+        "ankle": np.concatenate(ankle),
+    }
 
 
 def contact_speed_m_s(clip: Clip, position: FloatArray) -> float:

@@ -83,6 +83,10 @@ def test_knees_and_elbows_bend_as_a_person_s_and_never_lock(quality):
         assert greatest <= 150.0
 
 
+def test_joints_stay_within_what_a_supple_body_reaches(quality):
+    assert quality.beyond_limits_deg <= 0.0
+
+
 def test_nothing_pops(quality):
     assert quality.turn_rad_s <= 30.0
 

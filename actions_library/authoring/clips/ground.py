@@ -29,7 +29,7 @@ def crawl(skeleton: Skeleton) -> Clip:
             place=Place(left=-0.016, up=-0.402),
             hips=Turn(yaw=-9.0, lean=90.0, tilt=0.0),
             chest=Turn(yaw=7.0, lean=104.0, tilt=0.0),
-            head=Turn(yaw=6.0, lean=26.0, tilt=0.0),
+            head=Turn(yaw=6.0, lean=36.0, tilt=0.0),
             left_arm=arm,
             right_arm=arm,
         ),
@@ -38,7 +38,7 @@ def crawl(skeleton: Skeleton) -> Clip:
             place=Place(left=0.018, up=-0.390),
             hips=Turn(yaw=2.0, lean=88.0, tilt=0.0),
             chest=Turn(yaw=-2.0, lean=103.0, tilt=0.0),
-            head=Turn(yaw=-2.0, lean=22.0, tilt=0.0),
+            head=Turn(yaw=-2.0, lean=33.0, tilt=0.0),
         ),
     ]
     palm = Plant(
@@ -312,8 +312,8 @@ def fall(skeleton: Skeleton) -> Clip:
         Key(  # over the feet
             2.98,
             place=Place(up=-0.420, ahead=-0.10),
-            hips=Turn(lean=50.0),
-            chest=Turn(lean=66.0),
+            hips=Turn(lean=32.0),
+            chest=Turn(lean=64.0),
             head=Turn(lean=24.0),
             left_arm=Arm(to=(0.22, -0.75, 0.70), bend=22.0),
             right_arm=Arm(to=(0.22, -0.75, 0.75), bend=26.0),

@@ -99,7 +99,7 @@ def sit_down(skeleton: Skeleton) -> Clip:
         Key(  # squats
             0.92,
             place=Place(left=0.0, up=-0.500, ahead=-0.120),
-            hips=Turn(yaw=-2.0, lean=44.0),
+            hips=Turn(yaw=-2.0, lean=30.0),
             chest=Turn(yaw=-6.0, lean=66.0),
             head=Turn(yaw=-12.0, lean=30.0),
             left_arm=Arm(to=(0.06, -0.20, 1.0), bend=30.0, follow=0.0),
@@ -191,8 +191,8 @@ def stand_up(skeleton: Skeleton) -> Clip:
         Key(
             0.72,
             place=Place(left=0.0, up=-0.800, ahead=-0.420),
-            hips=Turn(lean=20.0),
-            chest=Turn(lean=52.0),
+            hips=Turn(lean=8.0),
+            chest=Turn(lean=46.0),
             head=Turn(lean=26.0),
             left_arm=replace(pushing, to=(0.68, -0.50, -0.24)),
             right_arm=replace(pushing, to=(0.68, -0.50, -0.24)),
@@ -200,8 +200,8 @@ def stand_up(skeleton: Skeleton) -> Clip:
         Key(  # over the feet
             1.06,
             place=Place(left=0.0, up=-0.460, ahead=-0.085),
-            hips=Turn(lean=50.0),
-            chest=Turn(lean=68.0),
+            hips=Turn(lean=32.0),
+            chest=Turn(lean=66.0),
             head=Turn(lean=24.0),
             left_arm=Arm(to=(0.20, -0.72, 0.75), bend=24.0),
             right_arm=Arm(to=(0.20, -0.72, 0.80), bend=28.0),
