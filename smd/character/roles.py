@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -20,7 +20,7 @@ import numpy as np
 from smd.character.skeleton import Role
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import normalized
+from smd.geometry.rotations import inverse, normalized, quaternion_between, rotate
 
 Side = Literal["left", "right"]
 
@@ -35,6 +35,10 @@ GROUNDED = 0.2
 
 END_SHARE = 0.35
 """Share of a limb's length that is left beyond its hand or foot at most."""
+
+UP = (0.0, 1.0, 0.0)
+_AXES = (UP, (0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0))
+"""Directions that may be up; the first of equally likely ones is."""
 
 _LEFT = re.compile(r"(?:^|[^a-z])l(?:$|[^a-z])|left|^L(?=[A-Z])", re.ASCII)
 _RIGHT = re.compile(r"(?:^|[^a-z])r(?:$|[^a-z])|right|^R(?=[A-Z])", re.ASCII)
@@ -76,7 +80,8 @@ class BodyPlan:
     chest : the joint of the spine that holds the arms, or the front legs; the pelvis without them.
     head : None where nothing is one.
     limbs : legs first; from the back to the front, the left one before the right one.
-    front : unit direction in which it faces, level.
+    front : unit direction in which it faces, across ``up``.
+    up : unit direction that points up.
     roles : of each joint.
     """
 
@@ -86,6 +91,7 @@ class BodyPlan:
     head: int | None
     limbs: tuple[LimbPlan, ...]
     front: tuple[float, float, float]
+    up: tuple[float, float, float]
     roles: tuple[Role, ...]
 
     @property
@@ -104,6 +110,7 @@ def body_plan(
     rest_position_m: FloatArray,
     *,
     front: Sequence[float] | None = None,
+    up: Sequence[float] | None = UP,
 ) -> BodyPlan:
     """Return how a skeleton is built.
 
@@ -112,19 +119,61 @@ def body_plan(
     joints, parents
         Names, and each joint's parent, which comes before it; -1 for a root.
     rest_position_m
-        ``(j, 3)`` in the world at rest, +Y up.
+        ``(j, 3)`` in the world at rest.
     front
         Level direction in which it faces; by default guessed: from the sides that names say, else
         from where the toes point, else from where the head is.
+    up
+        Direction that points up. None guesses it among the axes: legs reach down farthest along
+        it; +Y where there are no legs.
 
     Raises
     ------
     CharacterError
-        If there is no joint, or ``front`` has no level part.
+        If there is no joint, ``front`` has no level part, or ``up`` no length.
     """
-    tree = _Tree(joints, parents, rest_position_m)
+    place = np.asarray(rest_position_m, dtype=np.float64)
+    upward = np.asarray(_guessed_up(joints, parents, place) if up is None else up, dtype=np.float64)
+    if np.linalg.norm(upward) < 1e-9:
+        raise CharacterError(f"up: expected a direction, got {up}")
+    ours_from_given = quaternion_between(upward, UP)
+    if front is not None:
+        front = rotate(ours_from_given, front).tolist()
+    plan = _upright_plan(joints, parents, rotate(ours_from_given, place), front)
+    return replace(
+        plan,
+        front=_triple(rotate(inverse(ours_from_given), plan.front)),
+        up=_triple(normalized(upward)),
+    )
+
+
+def _triple(vector: FloatArray) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z
+
+
+def _guessed_up(
+    joints: Sequence[str], parents: Sequence[int], place: FloatArray
+) -> tuple[float, float, float]:
+    """Return the axis along which legs reach down farthest, all together."""
+
+    def reach(axis: tuple[float, float, float]) -> float:
+        tree = _Tree(joints, parents, rotate(quaternion_between(axis, UP), place))
+        return sum(float(np.ptp(tree.place[list(b), 1])) for pair in tree.legs() for b in pair)
+
+    return max(_AXES, key=lambda axis: round(reach(axis), 6))
+
+
+def _upright_plan(
+    joints: Sequence[str],
+    parents: Sequence[int],
+    place: FloatArray,
+    front: Sequence[float] | None,
+) -> BodyPlan:
+    """Return how a skeleton is built that stands with +Y up."""
+    tree = _Tree(joints, parents, place)
     pairs = tree.pairs()
-    legs = [pair for pair in pairs if tree.is_leg(pair[0]) and tree.is_leg(pair[1])]
+    legs = tree.legs()
     hips = tree.meeting([branch[0] for pair in legs for branch in pair]) if legs else None
     # Quadrupeds have two pairs of legs; the pelvis holds the hind ones and the spine.
     pelvis = tree.pelvis(legs, hips)
@@ -159,6 +208,7 @@ def body_plan(
         head=head,
         limbs=tuple(limbs),
         front=(float(level[0]), 0.0, float(level[2])),
+        up=UP,
         roles=tuple(roles),
     )
 
@@ -219,6 +269,10 @@ class _Tree:
                     long.remove(other)
                     found.append((self.branch(one), self.branch(other)))
         return found
+
+    def legs(self) -> list[Pair]:
+        """Return the pairs of which both come down to the ground."""
+        return [pair for pair in self.pairs() if self.is_leg(pair[0]) and self.is_leg(pair[1])]
 
     def _could_be_a_limb(self, joint: int) -> bool:
         branch = self.branch(joint)

@@ -10,6 +10,7 @@ from actions_library.authoring.humanoid import humanoid_skeleton
 from actions_library.importers import import_file
 from smd.character.roles import BodyPlan, body_plan
 from smd.errors import CharacterError
+from smd.geometry.rotations import normalized, quaternion_between, rotate
 
 EXPECTED = {
     "gltf/Knight.glb": {
@@ -165,3 +166,44 @@ def test_the_rest_pose_is_forward_kinematics_of_rest():
     skeleton = humanoid_skeleton()
     _, place = rest_pose(skeleton)
     np.testing.assert_allclose(place, skeleton.world_from_bind[:, :3, 3], atol=1e-12)
+
+
+STANDING = [name for name in EXPECTED if "snake" not in name]
+AXES = [(0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0)]
+
+
+def assert_found_lying(names, parents, place, up):
+    """What stands upright, turned so that its up is another axis, is the same body."""
+    given_from_ours = quaternion_between((0.0, 1.0, 0.0), up)
+    upright = body_plan(names, parents, place)
+    lying = body_plan(names, parents, rotate(given_from_ours, place), up=None)
+    assert lying.up == pytest.approx(up, abs=1e-9)
+    assert lying.front == pytest.approx(rotate(given_from_ours, upright.front).tolist(), abs=1e-6)
+    assert (lying.roles, lying.spine, lying.limbs) == (upright.roles, upright.spine, upright.limbs)
+
+
+@pytest.mark.parametrize("up", AXES)
+def test_which_axis_is_up_is_guessed_from_legs(up):
+    skeleton = humanoid_skeleton()
+    place = skeleton.world_from_bind[:, :3, 3]
+    assert_found_lying(skeleton.joints, skeleton.parents.tolist(), place, up)
+
+
+@pytest.mark.parametrize("up", AXES)
+@pytest.mark.parametrize("name", STANDING)
+def test_which_axis_is_up_is_guessed_for_the_skeletons_of_others(shared_data, name, up):
+    skeleton = import_file(shared_data / "clips" / name).skeleton
+    place = rest_pose(skeleton)[1]
+    assert_found_lying(skeleton.joints, skeleton.parents.tolist(), place, up)
+
+
+def test_up_may_be_any_direction_that_is_said_and_must_be_one():
+    skeleton = humanoid_skeleton()
+    where = skeleton.parents.tolist(), skeleton.world_from_bind[:, :3, 3]
+    up = normalized(np.array([0.3, 0.9, -0.2]))
+    turned = rotate(quaternion_between((0.0, 1.0, 0.0), up), where[1])
+    plan = body_plan(skeleton.joints, where[0], turned, up=up.tolist())
+    assert plan.roles == skeleton.roles
+    assert np.dot(plan.front, plan.up) == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(CharacterError, match="up"):
+        body_plan(skeleton.joints, *where, up=(0.0, 0.0, 0.0))

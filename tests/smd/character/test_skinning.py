@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from actions_library.folder import load_library
 from smd.character.character import Mesh
 from smd.character.kinematics import forward_kinematics
 from smd.character.skeleton import Skeleton
@@ -14,6 +15,7 @@ from smd.geometry.rotations import (
     quaternion_about,
     rotate,
 )
+from tests.naive.skinning import skinned
 
 BONE_M = 0.5
 
@@ -105,3 +107,16 @@ def test_frames_and_characters_may_lead(mesh):
     assert together.shape == (3, 2, 40, 3)
     alone = skin_points(mesh, skeleton, q[2, 1], p[2, 1])
     np.testing.assert_allclose(together[2, 1], alone, atol=2e-6)
+
+
+def test_the_humanoid_is_skinned_as_the_formula_says():
+    library = load_library()
+    for clip in (library.clip("walk"), library.clip("roll")):
+        frames = slice(None, None, 20)
+        q, p = forward_kinematics(
+            clip.skeleton, clip.rotation_xyzw[frames], clip.translation_m[frames]
+        )
+        for mesh in library.character.meshes:
+            fast = skin_points(mesh, clip.skeleton, q, p)
+            plain = [skinned(mesh, clip.skeleton, *pose) for pose in zip(q, p, strict=True)]
+            np.testing.assert_allclose(fast, plain, rtol=0.0, atol=1e-5)
