@@ -29,8 +29,8 @@ MOST_BYTES = 192 << 20
 MOST_JOINTS, DEEPEST, MOST_FRAMES = 1024, 256, 200_000
 """Of a file that is read: joints, joints one below another, and frames of one animation."""
 
-MOST_POSES = 4_000_000
-"""Frames times joints, of all of a file's animations: ten minutes of 55 joints at 120 Hz."""
+MOST_POSES = 3_000_000
+"""Frames times joints, of all of a file's animations: ten minutes of 41 joints at 120 Hz."""
 
 MOST_POINTS, MOST_TRIANGLES = 1_000_000, 2_000_000
 """Of all of a file's meshes."""

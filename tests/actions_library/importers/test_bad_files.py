@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import copy
+import io
 import json
 import struct
 import zipfile
@@ -12,6 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from actions_library.importers import import_file
 from smd.errors import ImportedFileError
@@ -98,6 +101,24 @@ CHANGES = {
     "an absolute path": (lambda d: d["buffers"][0].update(uri="/etc/passwd"), "same folder"),
     "a hidden path out": (lambda d: d["buffers"][0].update(uri="%2e%2e/secret"), "same folder"),
     "an address": (lambda d: d["buffers"][0].update(uri="http://a.b/c"), "same folder"),
+    "a zero byte": (lambda d: d["buffers"][0].update(uri="a\0b"), "a file's name"),
+    "a name too long": (lambda d: d["buffers"][0].update(uri="a" * 5000), "a file's name"),
+    "no ASCII": (lambda d: d["buffers"][0].update(uri="data:;base64,é"), "base64"),
+    "a number too large": (lambda d: d["nodes"][1].update(translation=[10**400, 0, 0]), "nodes[1]"),
+    "compressed meshes": (
+        lambda d: d.update(extensionsRequired=["KHR_draco_mesh_compression"]),
+        "extensionsRequired",
+    ),
+    "a channel twice": (
+        lambda d: d["animations"][0].update(channels=d["animations"][0]["channels"] * 2),
+        "one channel",
+    ),
+    "uneven targets": (
+        lambda d: d["meshes"][0]["primitives"].append(
+            {**d["meshes"][0]["primitives"][0], "targets": [{}]}
+        ),
+        "targets",
+    ),
     "no base64": (
         lambda d: d["buffers"][0].update(uri="data:application/octet-stream;base64,@@"),
         "base64",
@@ -125,6 +146,52 @@ def test_a_gltf_is_refused_with_the_place(tmp_path, change):
     refused(path, said)
 
 
+def chain(whole: dict, count: int) -> dict:
+    """Give a document so many joints, one below another."""
+    whole["nodes"] = [{"children": [i + 1]} for i in range(count - 1)] + [
+        {},
+        {"mesh": 0, "skin": 0},
+    ]
+    whole["skins"] = [{"joints": list(range(count))}]
+    return whole
+
+
+def test_joints_may_be_many_but_not_endless(tmp_path):
+    path = tmp_path / "a.gltf"
+    path.write_text(json.dumps(chain(document(), 256)))
+    assert import_file(path).skeleton.joints[-1] == "joint_255"
+    path.write_text(json.dumps(chain(document(), 257)))
+    refused(path, "one below another")
+    path.write_text(json.dumps(chain(document(), 20_000)))
+    refused(path, "1024 joints")
+
+
+def test_names_are_unique_and_can_be_written(tmp_path):
+    whole = document()
+    whole["nodes"][0]["name"] = whole["nodes"][1]["name"] = "a\n\ud800"
+    path = tmp_path / "a.gltf"
+    path.write_text(json.dumps(whole))
+    assert import_file(path).skeleton.joints == ("a__", "a___2")
+
+
+@pytest.mark.parametrize("kind", ["EPS", "GIF", "PNG"])
+def test_only_pictures_of_gltf_s_own_kinds_are_opened(tmp_path, kind):
+    """EPS would be drawn by another program; this PNG lacks its second half."""
+    whole, data = document(), io.BytesIO()
+    Image.new("RGB", (64, 64)).save(data, kind)
+    half = data.getvalue() if kind != "PNG" else data.getvalue()[:60]
+    uri = "data:image/png;base64," + base64.b64encode(half).decode()
+    whole["images"], whole["textures"] = [{"uri": uri}], [{"source": 0}]
+    whole["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    whole["accessors"].append({"componentType": 5126, "count": 3, "type": "VEC2"})
+    primitive = whole["meshes"][0]["primitives"][0]
+    primitive["attributes"]["TEXCOORD_0"] = len(whole["accessors"]) - 1
+    primitive["material"] = 0
+    path = tmp_path / "a.gltf"
+    path.write_text(json.dumps(whole))
+    refused(path, "picture")
+
+
 def test_a_link_out_of_the_folder_is_no_way_out(tmp_path):
     (tmp_path / "secret.bin").write_bytes(bytes(4000))
     inside = tmp_path / "inside"
@@ -137,8 +204,6 @@ def test_a_link_out_of_the_folder_is_no_way_out(tmp_path):
 
 
 def test_keys_that_are_no_numbers_or_go_back_are_refused(tmp_path):
-    import base64
-
     for at, value, said in ((1, float("nan"), "finite keys"), (1, 2.0, "increase")):
         whole = document()
         head, _, text = whole["buffers"][0]["uri"].partition(",")
