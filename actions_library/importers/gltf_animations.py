@@ -11,7 +11,13 @@ import numpy as np
 from actions_library.importers.gltf_file import GltfFile
 from actions_library.importers.gltf_nodes import PARTS, Nodes
 from actions_library.importers.gltf_shapes import Shapes
-from actions_library.importers.imported import Animation, check_poses, fault, rigid
+from actions_library.importers.imported import (
+    MOST_ANIMATIONS,
+    Animation,
+    check_poses,
+    fault,
+    rigid,
+)
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import normalized, sign_continuous, slerp
 
@@ -55,8 +61,10 @@ def read_animations(
     chain = nodes.above(joints)
     animations: list[Animation] = []
     notes: list[str] = []
-    poses = 0
-    for i in range(file.count("animations")):
+    poses, count = 0, file.count("animations")
+    if count > MOST_ANIMATIONS:
+        raise fault(file.path, "animations", f"at most {MOST_ANIMATIONS}", count)
+    for i in range(count):
         where = f"animations[{i}]"
         name = str(file.item("animations", i).get("name") or f"animation_{i}")
         tracks = _tracks(file, where, i, {*chain}, shapes)

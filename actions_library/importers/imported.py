@@ -26,11 +26,14 @@ from smd.geometry.rotations import (
 MOST_BYTES = 192 << 20
 """Largest file, or content of an archive, that is read: a few copies of it fit in 1 GiB."""
 
-MOST_JOINTS, DEEPEST, MOST_FRAMES = 1024, 256, 200_000
+MOST_JOINTS, DEEPEST, MOST_FRAMES = 1024, 192, 200_000
 """Of a file that is read: joints, joints one below another, and frames of one animation."""
 
 MOST_POSES = 3_000_000
 """Frames times joints, of all of a file's animations: ten minutes of 41 joints at 120 Hz."""
+
+MOST_ANIMATIONS = 2000
+"""Of a file: each costs a millisecond, however short it is."""
 
 MOST_POINTS, MOST_TRIANGLES = 1_000_000, 2_000_000
 """Of all of a file's meshes."""
