@@ -13,7 +13,11 @@ SUFFIXES = (".bvh", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz")
 
 
 def import_file(
-    path: Path | str, *, up: str | None = None, unit_m: float | None = None
+    path: Path | str,
+    *,
+    up: str | None = None,
+    unit_m: float | None = None,
+    skeleton: str | None = None,
 ) -> Imported:
     """Read a file's skeleton, meshes and animations, in our convention: metres, +Y up.
 
@@ -26,6 +30,8 @@ def import_file(
         or for a BVH file a guess.
     unit_m
         Metres per unit of the file; by default what the file says, or for a BVH file a guess.
+    skeleton
+        Name or path of one of a USD file's skeletons; by default the one that moves most.
 
     Raises
     ------
@@ -36,6 +42,8 @@ def import_file(
     if not path.is_file():
         raise fault(path, "", "a file", "none")
     suffix = path.suffix.lower()
+    if skeleton is not None and not suffix.startswith(".usd"):
+        raise fault(path, "skeleton", "a USD file to choose one from", suffix or "no suffix")
     if suffix == ".bvh":
         from actions_library.importers import bvh
 
@@ -47,5 +55,5 @@ def import_file(
     if suffix in (".usd", ".usda", ".usdc", ".usdz"):
         from actions_library.importers import usd
 
-        return usd.read(path, up=up, unit_m=unit_m)
+        return usd.read(path, up=up, unit_m=unit_m, skeleton=skeleton)
     raise fault(path, "", f"a file of {', '.join(SUFFIXES)}", suffix or "no suffix")

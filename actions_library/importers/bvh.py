@@ -5,6 +5,8 @@ name their channels. Rotations multiply in that order; position channels take th
 End sites are kept as joints that do not move. Neither unit nor up axis is written down: both are
 guessed from the skeleton's size and from where its head is, unless they are given.
 
+A file is gone through line by line and never held whole.
+
 References
 ----------
 .. [1] M. Meredith, S. Maddock, "Motion Capture File Formats Explained", University of Sheffield,
@@ -14,17 +16,19 @@ References
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from actions_library.importers.imported import (
+    DEEPEST,
     MOST_BYTES,
-    MOST_FRAMES,
     MOST_JOINTS,
     Animation,
     Imported,
+    check_poses,
     checked_unit,
     fault,
     skeleton_of,
@@ -47,7 +51,11 @@ PERSON_M = 1.7
 """How tall a skeleton is taken to be where nobody says its unit."""
 
 _CHANNELS = {f"{axis}{kind}" for axis in "XYZ" for kind in ("position", "rotation")}
-_DEEPEST = 512
+_MOST_LINES, _LONGEST_LINE = 1_000_000, 1 << 20
+_BLOCK = 1 << 20  # characters of motion that become numbers at once
+
+Lines = Iterator[tuple[int, str]]
+"""Numbers and texts of the lines that are not blank, from 1."""
 
 
 @dataclass
@@ -64,16 +72,9 @@ def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
     """Return the skeleton and the one animation of a BVH file."""
     if path.stat().st_size > MOST_BYTES:
         raise fault(path, "", f"at most {MOST_BYTES} bytes", path.stat().st_size)
-    text = path.read_text(encoding="utf-8", errors="replace")
-    lines = text.splitlines()
-    start = next((i for i, line in enumerate(lines) if line.strip() == "MOTION"), None)
-    first = next((line.strip() for line in lines if line.strip()), "")
-    if first != "HIERARCHY":
-        raise fault(path, "line 1", "HIERARCHY", repr(first[:40]))
-    if start is None:
-        raise fault(path, f"line {len(lines)}", "MOTION", "the end of the file")
-    tree = _hierarchy(path, lines[:start])
-    values, frame_s = _motion(path, lines, start, sum(map(len, tree.channels)))
+    lines = _lines(path)
+    tree = _hierarchy(path, lines)
+    values, frame_s = _motion(path, lines, tree)
     offsets = np.array(tree.offsets)
     place = offsets.copy()
     for j, parent in enumerate(tree.parents):
@@ -95,30 +96,51 @@ def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
     return Imported(path, skeleton, (), (animation,))
 
 
-def _hierarchy(path: Path, lines: list[str]) -> _Hierarchy:
+def _lines(path: Path) -> Lines:
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        for number in range(1, _MOST_LINES + 2):
+            line = file.readline(_LONGEST_LINE)
+            if not line:
+                return
+            if number > _MOST_LINES or len(line) == _LONGEST_LINE:
+                expected = f"at most {_MOST_LINES} lines of {_LONGEST_LINE} characters"
+                raise fault(path, f"line {number}", expected, "more")
+            if not line.isspace():
+                yield number, line.strip()
+
+
+def _hierarchy(path: Path, lines: Lines) -> _Hierarchy:
     """Return the joints that the lines before MOTION name, parents first."""
-    tree, pending = _Hierarchy(), ""
+    number, first = next(lines, (1, ""))
+    if first.upper() != "HIERARCHY":
+        raise fault(path, f"line {number}", "HIERARCHY", repr(first[:40]))
+    tree, pending = _Hierarchy(), None
     stack: list[int] = []
-    for number, line in enumerate(lines, 1):
+    for where, line in _statements(lines):
         words = line.split()
-        if not words or words == ["HIERARCHY"]:
-            continue
-        where, word = f"line {number}", words[0]
-        if word in ("ROOT", "JOINT") or words[:2] == ["End", "Site"]:
+        word = words[0].upper()
+        if word == "MOTION":
+            if stack:
+                raise fault(path, where, f"}} of {tree.names[stack[-1]]!r}", "MOTION")
+            if not tree.names:
+                raise fault(path, where, "ROOT", "no joint")
+            return tree
+        if word in ("ROOT", "JOINT") or line.upper().startswith("END SITE"):
             if (word == "ROOT") == bool(stack):
-                raise fault(
-                    path, where, "ROOT outside and JOINT inside of braces", line.strip()[:60]
-                )
-            pending = " ".join(words[1:]) if word != "End" else f"{tree.names[stack[-1]]}_end"
+                raise fault(path, where, "ROOT outside and JOINT inside of braces", line[:60])
+            pending = " ".join(words[1:]) if word != "END" else f"{tree.names[stack[-1]]}_end"
         elif word == "{":
-            if not pending or len(stack) > _DEEPEST or len(tree.names) >= MOST_JOINTS:
-                raise fault(path, where, "a joint's name before its brace", "none, or too many")
-            tree.names.append(pending)
+            if pending is None:
+                raise fault(path, where, "ROOT, JOINT or End Site before a brace", "none")
+            if len(stack) >= DEEPEST or len(tree.names) >= MOST_JOINTS:
+                expected = f"at most {MOST_JOINTS} joints, {DEEPEST} one below another"
+                raise fault(path, where, expected, "another brace")
+            tree.names.append(pending or f"joint_{len(tree.names)}")
             tree.parents.append(stack[-1] if stack else -1)
             tree.offsets.append([])
             tree.channels.append([])
             stack.append(len(tree.names) - 1)
-            pending = ""
+            pending = None
         elif word == "}":
             if not stack:
                 raise fault(path, where, "as many { as }", "one } more")
@@ -131,16 +153,19 @@ def _hierarchy(path: Path, lines: list[str]) -> _Hierarchy:
             tree.channels[stack[-1]] = _channels(path, where, words[1:])
         else:
             raise fault(path, where, "ROOT, JOINT, End Site, OFFSET, CHANNELS, { or }", line[:60])
-    if stack:
-        raise fault(path, f"line {len(lines)}", f"}} of {tree.names[stack[-1]]!r}", "MOTION")
-    if not tree.names:
-        raise fault(path, "", "ROOT", "no joint")
-    return tree
+    raise fault(path, "", "MOTION", "the end of the file")
+
+
+def _statements(lines: Lines) -> Iterator[tuple[str, str]]:
+    """Yield where statements are and what they say: a brace is one wherever it stands."""
+    for number, line in lines:
+        for part in re.findall(r"[{}]|[^{}\s][^{}]*", line):
+            yield f"line {number}", part
 
 
 def _numbers(path: Path, where: str, words: list[str], count: int) -> list[float]:
     try:
-        values = [float(word) for word in words]
+        values = [float(word) for word in words if "_" not in word]
     except ValueError:
         values = []
     if len(values) != count or not np.isfinite(values).all():
@@ -149,45 +174,76 @@ def _numbers(path: Path, where: str, words: list[str], count: int) -> list[float
 
 
 def _channels(path: Path, where: str, words: list[str]) -> list[str]:
-    count = int(words[0]) if words and re.fullmatch(r"\d{1,2}", words[0]) else -1
-    names = words[1:]
+    count = int(words[0]) if words and re.fullmatch(r"[0-9]{1,2}", words[0]) else -1
+    names = [word.capitalize() for word in words[1:]]
     if len(names) != count or not set(names) <= _CHANNELS or len(set(names)) != len(names):
         expected = "a count and as many of Xposition … Zrotation, each once"
         raise fault(path, where, expected, " ".join(words)[:80] or "none")
     return names
 
 
-def _motion(path: Path, lines: list[str], start: int, width: int) -> tuple[FloatArray, float]:
-    """Return the rows of numbers ``(n, width)`` and the seconds from one to the next."""
-    body = [(i, line) for i, line in enumerate(lines[start + 1 :], start + 2) if line.strip()]
-    heads = {"Frames:": "a count", "Frame Time:": "seconds"}
-    given = []
-    for (key, what), row in zip(heads.items(), [*body[:2], None, None], strict=False):
-        number, line = row or (len(lines), "")
-        value = line.strip().removeprefix(key).strip()
-        if not line.strip().startswith(key) or not re.fullmatch(r"[-+.\deE]+", value):
-            raise fault(path, f"line {number}", f"{key} and {what}", repr(line.strip()[:40]))
-        given.append(_numbers(path, f"line {number}", [value], 1)[0])
-    frames, frame_s = given
-    if frames != int(frames) or not 1 <= frames <= MOST_FRAMES:
-        raise fault(path, "Frames", f"1 to {MOST_FRAMES}", f"{frames:g}")
+def _motion(path: Path, lines: Lines, tree: _Hierarchy) -> tuple[FloatArray, float]:
+    """Return the rows of numbers ``(n, channels)`` and the seconds from one to the next."""
+    frames = _said(path, lines, r"Frames\s*:", "Frames: and a count")
+    if frames != int(frames) or frames < 1:
+        raise fault(path, "Frames", "a whole number from 1", f"{frames:g}")
+    check_poses(path, "Frames", frames, len(tree.names))
+    frame_s = _said(path, lines, r"Frame\s+Time\s*:", "Frame Time: and seconds")
     if not 1e-4 <= frame_s <= 10.0:
         raise fault(path, "Frame Time", "0.0001 to 10 seconds", f"{frame_s:g}")
-    rows = body[2:]
-    try:
-        values = np.array(" ".join(line for _, line in rows).split(), dtype=np.float64)
-    except ValueError as error:
-        raise fault(path, "MOTION", "numbers", str(error)[:80]) from None
-    if len(values) != int(frames) * width:
-        for number, line in rows:
-            if len(line.split()) != width:
-                raise fault(path, f"line {number}", f"{width} numbers", len(line.split()))
-        raise fault(path, "MOTION", f"{int(frames)} frames", len(rows))
-    values = values.reshape(int(frames), width)
+    width = sum(map(len, tree.channels))
+    values = _values(path, lines, int(frames), width).reshape(int(frames), width)
     bad = ~np.isfinite(values).all(axis=1)
     if bad.any():
         raise fault(path, f"frame {int(np.argmax(bad))}", "finite numbers", "one that is not")
     return values, frame_s
+
+
+def _said(path: Path, lines: Lines, key: str, expected: str) -> float:
+    """Return the number behind a key, which the next line has to name."""
+    number, line = next(lines, (0, ""))
+    found = re.fullmatch(key + r"\s*([-+.0-9eE]+)", line, re.IGNORECASE)
+    if not found:
+        where = f"line {number}" if number else "the end of the file"
+        raise fault(path, where, expected, repr(line[:40]))
+    return _numbers(path, f"line {number}", [found[1]], 1)[0]
+
+
+def _values(path: Path, lines: Lines, frames: int, width: int) -> FloatArray:
+    """Return the numbers that follow, if they are as many as frames and channels ask for."""
+    parts: list[FloatArray] = []
+    total, uneven = 0, ""
+    for block in _blocks(lines):
+        words = " ".join(line for _, line in block).split()
+        if not uneven and len(words) != width * len(block):
+            counts = ((number, len(line.split())) for number, line in block)
+            uneven = next(f"line {n}: {count} numbers" for n, count in counts if count != width)
+        total += len(words)
+        if total > frames * width:
+            break
+        try:
+            parts.append(np.array(words, dtype=np.float64))
+        except ValueError as error:
+            where = f"MOTION, from line {block[0][0]}"
+            raise fault(path, where, "numbers", str(error)[:80]) from None
+    if total != frames * width:
+        found = uneven or (f"{total // width} rows" if width else "numbers without a channel")
+        more = " or more" if total > frames * width else ""
+        raise fault(path, "MOTION", f"{frames} frames of {width} numbers", found + more)
+    return np.concatenate(parts) if parts else np.empty(0)
+
+
+def _blocks(lines: Lines) -> Iterator[list[tuple[int, str]]]:
+    """Yield the lines, some thousands at a time."""
+    block, size = [], 0
+    for number, line in lines:
+        block.append((number, line))
+        size += len(line)
+        if size > _BLOCK:
+            yield block
+            block, size = [], 0
+    if block:
+        yield block
 
 
 def _poses(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import binascii
 import json
 import struct
 from collections.abc import Iterator
@@ -25,7 +24,19 @@ _COMPONENTS = {
     "5126": "<f4",
 }
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-_MOST_VALUES = 1 << 26
+_MOST_VALUES = 1 << 24
+_MOST_WORK, _WORK_PER_ACCESSOR = 1 << 26, 400
+_MOST_ITEMS = 1 << 22  # of JSON: lists, objects and what they hold
+_MOST_NODES = 1 << 16
+_SUPPORTED = {
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "KHR_node_visibility",
+    "EXT_texture_webp",
+}
+"""Extensions without which a file reads the same here, or nearly: colours may be others. All
+materials' may be required too."""
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
 
 
@@ -51,7 +62,15 @@ class GltfFile:
         version = version.get("version") if isinstance(version, dict) else None
         if version is None or not str(version).startswith("2."):
             raise fault(path, "asset.version", "2.0", repr(version)[:40])
+        required = self.document.get("extensionsRequired", [])
+        for name in map(str, required if isinstance(required, list) else [required]):
+            if name not in _SUPPORTED and not name.startswith("KHR_materials_"):
+                expected = "no extension that changes how a file is read"
+                raise fault(path, "extensionsRequired", expected, repr(name)[:60])
+        if self.count("nodes") > _MOST_NODES:
+            raise fault(path, "nodes", f"at most {_MOST_NODES}", self.count("nodes"))
         self._buffers: dict[int, bytes] = {}
+        self._work = 0
 
     def _chunks(self, data: bytes) -> bytes:
         """Return the JSON of a GLB, and keep its binary chunk."""
@@ -74,6 +93,9 @@ class GltfFile:
         return parts[_JSON]
 
     def _parsed(self, data: bytes) -> dict[str, Any]:
+        items = sum(data.count(mark) for mark in (b",", b"{", b"["))
+        if items > _MOST_ITEMS:
+            raise fault(self.path, "", f"JSON of at most {_MOST_ITEMS} items", items)
         try:
             document = json.loads(data.decode("utf-8-sig"))
         except RecursionError:
@@ -120,7 +142,10 @@ class GltfFile:
         """Return so many finite numbers."""
         good = isinstance(value, list) and len(value) == count
         good = good and all(type(v) in (int, float) for v in value)
-        array = np.array(value, dtype=np.float64) if good else np.full(count, np.nan)
+        try:
+            array = np.array(value, dtype=np.float64) if good else np.full(count, np.nan)
+        except OverflowError:  # a whole number beyond the largest float
+            array = np.full(count, np.inf)
         if not np.isfinite(array).all():
             raise fault(self.path, where, f"{count} finite numbers", repr(value)[:60])
         return array
@@ -151,6 +176,10 @@ class GltfFile:
         width, dtype = _WIDTHS[kind], np.dtype(_COMPONENTS[component])
         if count * width > _MOST_VALUES:
             raise fault(self.path, where, f"at most {_MOST_VALUES} numbers", count * width)
+        # A small file may ask for the same numbers again and again.
+        self._work += count * width + _WORK_PER_ACCESSOR
+        if self._work > _MOST_WORK:
+            raise fault(self.path, where, f"at most {_MOST_WORK} numbers in all", "more")
         if "bufferView" in item:
             values = self._values(item["bufferView"], item, count, width, dtype, where).copy()
         else:
@@ -245,22 +274,29 @@ class GltfFile:
                 raise fault(self.path, where, "data in base64", head[:60])
             try:
                 return base64.b64decode(text, validate=True)
-            except binascii.Error as error:
+            except ValueError as error:
                 raise fault(self.path, where, "base64", str(error)) from None
         name = unquote(uri)
         parts = PurePosixPath(name).parts
         folder = self.path.parent.resolve()
-        target = folder.joinpath(*parts) if parts else folder
         outside = ".." in parts or "\\" in name or ":" in name or name.startswith("/")
-        if outside or not target.resolve().is_relative_to(folder):
+        try:
+            target = folder.joinpath(*parts).resolve()
+            there = target.is_file()
+        except (OSError, ValueError):  # a name too long, or with a zero byte
+            raise fault(self.path, where, "a file's name", repr(uri)[:80]) from None
+        if outside or not target.is_relative_to(folder):
             raise fault(self.path, where, "a file in the same folder", repr(uri)[:80])
-        if not target.is_file():
+        if not there:
             if not needed:
                 return None
             raise fault(self.path, where, "a file", f"none: {name[:80]}")
         if target.stat().st_size > MOST_BYTES:
             raise fault(self.path, where, f"at most {MOST_BYTES} bytes", target.stat().st_size)
-        return target.read_bytes()
+        try:
+            return target.read_bytes()
+        except OSError as error:
+            raise fault(self.path, where, "a file to read", error.strerror) from None
 
 
 _SPARSE = ("indices", "values")

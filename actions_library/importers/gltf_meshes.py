@@ -3,29 +3,42 @@
 from __future__ import annotations
 
 import io
+import struct
+import warnings
+import zlib
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from actions_library.importers.gltf_file import GltfFile
-from actions_library.importers.imported import bound, fault, strongest, unique_names
+from actions_library.importers.imported import (
+    MOST_POINTS,
+    MOST_TRIANGLES,
+    bound,
+    fault,
+    strongest,
+    unique_names,
+)
 from smd.character.character import Mesh
 from smd.geometry.arrays import FloatArray, IntArray
 
 MOST_COLORS = 12
 """Of a file: textures are not kept, but their colours are, each a mesh of its own."""
 
-_MOST_PIXELS = 1 << 26
+_MOST_PIXELS, _MOST_PIXELS_IN_ALL = 1 << 26, 1 << 28
+_SIDE = 1024  # of a picture that is kept: more than enough for a colour a triangle
+_FORMATS = ("PNG", "JPEG", "WEBP")  # others may start programs: EPS is drawn by one
 _GREY = (0.9, 0.9, 0.9)
 
 
 def read_meshes(
     file: GltfFile,
-    parent: dict[int, int],
+    parent: Sequence[int],
     joints: list[int],
     bind: FloatArray,
     inverse_binds: list[FloatArray],
-    rest: dict[int, FloatArray],
+    rest: FloatArray,
 ) -> tuple[list[Mesh], list[str]]:
     """Return the meshes that joints move, in the bind pose, and what was left out.
 
@@ -40,19 +53,20 @@ def read_meshes(
     inverse_binds
         Of each skin's joints.
     rest
-        Each node's matrix at rest.
+        ``(n, 4, 4)`` each node's matrix at rest.
     """
     parts: list[_Part] = []
     notes: list[str] = []
-    morphs, loose = 0, 0
-    pictures: dict[int, Any] = {}
+    loose = points_so_far = faces_so_far = 0
+    at_of = {node: j for j, node in enumerate(joints)}
+    pictures = _Pictures(file)
     for node in range(file.count("nodes")):
         item = file.node(node)
         if "mesh" not in item:
             continue
         mesh = file.item("meshes", file.index(item["mesh"], "meshes", f"nodes[{node}]"))
         holder = node
-        while holder >= 0 and holder not in joints:
+        while holder >= 0 and holder not in at_of:
             holder = parent[holder]
         if "skin" not in item and holder < 0:
             loose += 1
@@ -66,18 +80,21 @@ def read_meshes(
             if geometry is None:
                 continue
             points, triangles = geometry
-            morphs += len(primitive.get("targets") or [])
+            points_so_far, faces_so_far = points_so_far + len(points), faces_so_far + len(triangles)
+            if points_so_far > MOST_POINTS or faces_so_far > MOST_TRIANGLES:
+                most = f"at most {MOST_POINTS} points and {MOST_TRIANGLES} triangles in all"
+                raise fault(file.path, where, most, f"{points_so_far} and {faces_so_far}")
             if "skin" in item:
                 skin = file.index(item["skin"], "skins", f"nodes[{node}]")
                 indices, weights = _influences(file, primitive, len(points), where)
-                own = [joints.index(j) for j in file.item("skins", skin)["joints"]]
+                own = [at_of[j] for j in file.item("skins", skin)["joints"]]
                 if indices.max(initial=0) >= len(own):
                     raise fault(file.path, where, f"joints below {len(own)}", indices.max())
                 matrices = bind[own] @ inverse_binds[skin]
                 points = bound(points, weights, indices, matrices)
                 indices = np.asarray(own, dtype=np.int64)[indices]
             else:
-                at = joints.index(holder)
+                at = at_of[holder]
                 way = bind[at] @ np.linalg.inv(rest[holder]) @ rest[node]
                 points = points @ way[:3, :3].T + way[:3, 3]
                 indices = np.full((len(points), 4), at, dtype=np.int64)
@@ -85,11 +102,9 @@ def read_meshes(
             name = str(item.get("name") or mesh.get("name") or f"mesh_{node}")
             rgb = _colors(file, primitive, triangles, pictures, where)
             parts.append(_Part(name, points, triangles, indices, weights, rgb))
-    if morphs:
-        notes.append(f"{morphs} morph targets are not kept")
     if loose:
         notes.append(f"{loose} meshes that no joint moves are not kept")
-    absent = [str(source) for source, pixels in pictures.items() if pixels is None]
+    absent = [str(source) for source, pixels in pictures.found.items() if pixels is None]
     if absent:
         notes.append(f"pictures of textures are missing: {', '.join(absent)}")
     return _by_color(parts), notes
@@ -199,7 +214,7 @@ def _colors(
     file: GltfFile,
     primitive: dict[str, Any],
     triangles: IntArray,
-    pictures: dict[int, Any],
+    pictures: _Pictures,
     where: str,
 ) -> FloatArray:
     """Return each triangle's sRGB colour ``(t, 3)``: the material's, times its texture's there."""
@@ -217,9 +232,7 @@ def _colors(
     source = file.item("textures", texture.get("index")).get("source")
     if key not in primitive["attributes"] or source is None:
         return plain
-    if source not in pictures:
-        pictures[source] = _picture(file, source)
-    pixels = pictures[source]
+    pixels = pictures.pixels(source)
     if pixels is None:
         return plain
     uv = file.accessor(primitive["attributes"][key], where)
@@ -231,21 +244,55 @@ def _colors(
     return np.asarray(pixels[row, column] / 255.0 * _encoded(factor))
 
 
-def _picture(file: GltfFile, source: Any) -> Any:
-    """Return a picture's pixels ``(h, w, 3)`` uint8; None where its file is not there."""
-    from PIL import Image
+class _Pictures:
+    """The pictures of a file, each read once."""
 
-    item, where = file.item("images", source), f"images[{source}]"
-    if "bufferView" in item:
-        data: bytes | None = bytes(file.view(item["bufferView"], where)[0])
-    else:
-        data = file.content(item.get("uri"), f"{where}.uri", needed=False)
-    if data is None:
-        return None
-    try:
-        with Image.open(io.BytesIO(data)) as image:
-            if image.width * image.height > _MOST_PIXELS:
-                raise fault(file.path, where, f"at most {_MOST_PIXELS} pixels", image.size)
-            return np.asarray(image.convert("RGB"))
-    except (OSError, Image.DecompressionBombError) as error:
-        raise fault(file.path, where, "a picture", str(error)[:80]) from None
+    def __init__(self, file: GltfFile) -> None:
+        self.file = file
+        self.found: dict[int, Any] = {}
+        self._size = 0
+
+    def pixels(self, source: Any) -> Any:
+        """Return a picture's pixels ``(h, w, 3)`` uint8; None where its file is not there."""
+        at = self.file.index(source, "images", "textures")
+        if at not in self.found:
+            self.found[at] = self._read(at)
+        return self.found[at]
+
+    def _read(self, at: int) -> Any:
+        from PIL import Image
+
+        item, where = self.file.item("images", at), f"images[{at}]"
+        if "bufferView" in item:
+            data: bytes | None = bytes(self.file.view(item["bufferView"], where)[0])
+        else:
+            data = self.file.content(item.get("uri"), f"{where}.uri", needed=False)
+        if data is None:
+            return None
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # ours is below
+                image = Image.open(io.BytesIO(data), formats=_FORMATS)
+        except (OSError, Image.DecompressionBombError):
+            raise fault(self.file.path, where, f"a picture, {_FORMATS}", "another") from None
+        with image:
+            size = image.width * image.height
+            self._size += size
+            if size > _MOST_PIXELS or self._size > _MOST_PIXELS_IN_ALL:
+                most = f"at most {_MOST_PIXELS} pixels, {_MOST_PIXELS_IN_ALL} in all"
+                raise fault(self.file.path, where, most, f"{size}, {self._size}")
+            try:
+                image.draft("RGB", (_SIDE, _SIDE))
+                small = image.convert("RGB")
+                small.thumbnail((_SIDE, _SIDE))
+            # Damage shows in as many ways as there are decoders.
+            except (
+                OSError,
+                SyntaxError,
+                ValueError,
+                struct.error,
+                zlib.error,
+                MemoryError,
+            ) as error:
+                raise fault(self.file.path, where, "a whole picture", str(error)[:80]) from None
+        return np.asarray(small)

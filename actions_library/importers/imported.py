@@ -23,11 +23,20 @@ from smd.geometry.rotations import (
     sign_continuous,
 )
 
-MOST_BYTES = 1 << 30
-"""Largest file, or content of an archive, that is read."""
+MOST_BYTES = 192 << 20
+"""Largest file, or content of an archive, that is read: a few copies of it fit in 1 GiB."""
 
-MOST_JOINTS, MOST_FRAMES = 4096, 200_000
-"""Of a file that is read: far beyond any character, and little enough to hold."""
+MOST_JOINTS, DEEPEST, MOST_FRAMES = 1024, 192, 200_000
+"""Of a file that is read: joints, joints one below another, and frames of one animation."""
+
+MOST_POSES = 3_000_000
+"""Frames times joints, of all of a file's animations: ten minutes of 41 joints at 120 Hz."""
+
+MOST_ANIMATIONS = 2000
+"""Of a file: each costs a millisecond, however short it is."""
+
+MOST_POINTS, MOST_TRIANGLES = 1_000_000, 2_000_000
+"""Of all of a file's meshes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,12 +49,14 @@ class Animation:
     rate_hz : frames per second.
     rotation_xyzw : (n, j, 4) of each joint in its parent's frame, or the world's for a root.
     translation_m : (n, j, 3).
+    shape_weights : (n, s) of the file's shapes; None where it moves none of them.
     """
 
     name: str
     rate_hz: float
     rotation_xyzw: FloatArray
     translation_m: FloatArray
+    shape_weights: FloatArray | None = None
 
     @property
     def duration_s(self) -> float:
@@ -64,6 +75,7 @@ class Imported:
     meshes : bound to it; none in files of movement alone.
     animations : by the file's order.
     notes : what the file holds and was left out, one line each.
+    shapes : names of morph targets and blend shapes, made unique.
     """
 
     path: Path
@@ -71,6 +83,7 @@ class Imported:
     meshes: tuple[Mesh, ...]
     animations: tuple[Animation, ...]
     notes: tuple[str, ...] = ()
+    shapes: tuple[str, ...] = ()
 
     def animation(self, name: str | None) -> Animation:
         """Return the animation of a name, or the only one.
@@ -102,22 +115,52 @@ class Imported:
             within = f"a start before an end within {animation.duration_s:.2f} s"
             raise fault(self.path, f"clip {animation.name!r}", within, span)
         rows = slice(first, final + 1)
+        weights = animation.shape_weights
         return replace(
             animation,
             rotation_xyzw=animation.rotation_xyzw[rows],
             translation_m=animation.translation_m[rows],
+            shape_weights=None if weights is None else weights[rows],
         )
 
 
 def fault(path: Path, place: str, expected: str, found: object) -> ImportedFileError:
     """Return the error for a file: where in it, what was expected, what was found."""
     where = f"{path}: {place}: " if place else f"{path}: "
-    return ImportedFileError(f"{where}expected {expected}, found {found}")
+    return ImportedFileError(f"{where}{printable(f'expected {expected}, found {found}')}")
 
 
-def unique_names(names: Sequence[str]) -> tuple[str, ...]:
-    """Return the names, numbered from the second of a kind on; who has none is a joint."""
-    return tuple(numbered(name or f"joint_{i}" for i, name in enumerate(names)))
+def printable(text: str) -> str:
+    """Return text on one line, what cannot be shown as underscores."""
+    return "".join(c if c.isprintable() else "_" for c in text)
+
+
+def unique_names(names: Sequence[str], without: str = "joint") -> tuple[str, ...]:
+    """Return the names, numbered from the second of a kind on; ``joint_3`` where there is none."""
+    return tuple(numbered(printable(n) or f"{without}_{i}" for i, n in enumerate(names)))
+
+
+def depth_of(parents: Sequence[int]) -> int:
+    """Return how many joints stand one below another; parents come before children."""
+    depths: list[int] = []
+    for parent in parents:
+        depths.append(1 if parent < 0 else depths[parent] + 1)
+    return max(depths, default=0)
+
+
+def check_poses(path: Path, place: str, frames: float, joints: int, before: int = 0) -> None:
+    """Refuse an animation of so many frames, where so many poses of joints came before it.
+
+    Raises
+    ------
+    ImportedFileError
+        If there are too many frames, or too many poses in all.
+    """
+    if not frames <= MOST_FRAMES:
+        raise fault(path, place, f"at most {MOST_FRAMES} frames", f"{frames:.6g}")
+    poses = before + int(frames) * joints
+    if poses > MOST_POSES:
+        raise fault(path, place, f"at most {MOST_POSES} frames times joints", poses)
 
 
 def rigid(
@@ -145,16 +188,20 @@ def rigid(
         joint = int(np.argwhere(length[..., 0, :].min(axis=-1) < 1e-9)[0][-1])
         raise fault(path, place, "scales above zero", f"zero at joint {joint}")
     axes = axes / length
-    mirrored = np.linalg.det(axes) < 0.0  # a negative scale: of the file, not of the pose
+    volume = np.linalg.det(axes)
+    if volume.size and np.abs(volume).min() < 1e-6:
+        joint = int(np.argwhere(np.abs(volume) < 1e-6)[0][-1])
+        raise fault(path, place, "axes that span space", f"flat ones at joint {joint}")
+    mirrored = volume < 0.0  # a negative scale: of the file, not of the pose
     axes = np.where(mirrored[..., None, None], -axes, axes)
     rotation = quaternion_from_matrix(axes)
     position = world[..., :3, 3]
     local_q, local_t = rotation.copy(), position.copy()
-    for j, parent in enumerate(parents):
-        if parent >= 0:
-            back = inverse(rotation[..., parent, :])
-            local_t[..., j, :] = rotate(back, position[..., j, :] - position[..., parent, :])
-            local_q[..., j, :] = multiply(back, rotation[..., j, :])
+    below = np.flatnonzero(np.asarray(parents) >= 0)
+    above = np.asarray(parents, dtype=np.int64)[below]
+    back = inverse(rotation[..., above, :])
+    local_t[..., below, :] = rotate(back, position[..., below, :] - position[..., above, :])
+    local_q[..., below, :] = multiply(back, rotation[..., below, :])
     if local_q.ndim == 3:
         local_q = sign_continuous(local_q)
     return local_q, local_t
@@ -172,6 +219,8 @@ def skeleton_of(
         raise fault(path, "", "a skeleton", "no joint")
     if len(names) > MOST_JOINTS:
         raise fault(path, "", f"at most {MOST_JOINTS} joints", len(names))
+    if depth_of(parents) > DEEPEST:
+        raise fault(path, "", f"at most {DEEPEST} joints one below another", depth_of(parents))
     rotation, translation = rigid(path, "rest pose", rest_world, parents)
     # Bind poses keep no scale either: points are stored in the size they have at rest.
     bind_q, bind_t = rigid(path, "bind pose", bind_world, [-1] * len(names))
@@ -212,8 +261,12 @@ def strongest(indices: IntArray, weights: FloatArray) -> tuple[IntArray, FloatAr
 
 def bound(points: FloatArray, weights: FloatArray, indices: IntArray, m: FloatArray) -> FloatArray:
     """Return points moved by the weighted mean of their joints' matrices ``(j, 4, 4)``."""
-    mean = np.einsum("pk,pkab->pab", weights, m[indices])
-    return np.asarray(np.einsum("pab,pb->pa", mean[:, :3, :3], points) + mean[:, :3, 3])
+    moved = np.zeros_like(points)
+    for k in range(weights.shape[1]):  # one influence at a time: a matrix a point is much to hold
+        own = m[indices[:, k]]
+        place = np.einsum("pab,pb->pa", own[:, :3, :3], points) + own[:, :3, 3]
+        moved += weights[:, k, None] * place
+    return moved
 
 
 AXIS = {

@@ -63,6 +63,35 @@ def test_line_ends_tabs_and_blank_lines_do_not_matter(tmp_path):
     np.testing.assert_array_equal(places(plain, unit_m=1.0), places(odd, unit_m=1.0))
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: "\ufeff" + text,
+        lambda text: text.replace("\n{", " {").replace("\t{", " {"),
+        lambda text: text.replace("HIERARCHY", "Hierarchy").replace("MOTION", "Motion"),
+        lambda text: text.replace("End Site", "End site").replace("rotation", "Rotation"),
+        lambda text: text.replace("Frames: ", "Frames:\t").replace("Frame Time: ", "Frame Time:"),
+        lambda text: text.replace("0 1 0 0 0 0", "0 1 0\n0 0 0"),
+    ],
+)
+def test_manners_of_writing_do_not_matter(tmp_path, change):
+    plain, odd = written(tmp_path), written(tmp_path, change(ARM), "b.bvh")
+    assert change(ARM) != ARM
+    np.testing.assert_array_equal(places(plain, unit_m=1.0), places(odd, unit_m=1.0))
+
+
+def test_joints_without_a_name_are_given_one(tmp_path):
+    imported = import_file(written(tmp_path, ARM.replace("JOINT Neck", "JOINT")))
+    assert imported.skeleton.joints == ("Hips", "joint_1", "joint_1_end")
+
+
+def test_a_file_longer_than_a_block_of_text_is_read_whole(tmp_path):
+    rows = "".join(f"{i} 1 0 0 0 0 0 0 {i % 90}.000000000000\n" for i in range(40_000))
+    text = ARM.partition("0 1 0")[0].replace("Frames: 2", "Frames: 40000") + rows
+    (animation,) = import_file(written(tmp_path, text), unit_m=1.0).animations
+    np.testing.assert_array_equal(animation.translation_m[:, 0, 0], np.arange(40_000))
+
+
 def test_the_unit_is_the_one_in_which_a_skeleton_is_a_person(tmp_path):
     for factor, unit in ((1.0, "m"), (100.0, "cm"), (1000.0, "mm"), (1 / 0.0254, "in")):
         text = ARM.replace("0 1.5 0", f"0 {1.5 * factor} 0").replace("2.5e-1", f"{0.25 * factor}")

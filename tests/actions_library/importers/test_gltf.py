@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from actions_library.importers import import_file
-from actions_library.importers.gltf import sampled
+from actions_library.importers.gltf_animations import sampled
 from smd.character.kinematics import forward_kinematics
 from smd.character.skinning import skin_points
 from smd.geometry.rotations import quaternion_about, rotate
@@ -82,6 +82,42 @@ def written(tmp_path: Path, whole: dict | None = None, name: str = "a.gltf") -> 
     path = tmp_path / name
     path.write_text(json.dumps(document() if whole is None else whole))
     return path
+
+
+def appended(whole: dict, array: np.ndarray, kind: str, component: int, **more) -> int:
+    """Add a buffer with an accessor to a document; return the accessor's index."""
+    raw = array.tobytes()
+    uri = "data:application/octet-stream;base64," + base64.b64encode(raw).decode()
+    whole["buffers"].append({"uri": uri, "byteLength": len(raw)})
+    view = {"buffer": len(whole["buffers"]) - 1, "byteLength": len(raw)}
+    whole["bufferViews"].append(view)
+    whole["accessors"].append(
+        {
+            "bufferView": len(whole["bufferViews"]) - 1,
+            "componentType": component,
+            "count": len(array),
+            "type": kind,
+            **more,
+        }
+    )
+    return len(whole["accessors"]) - 1
+
+
+def animated(whole: dict, path: str, times, values, manner: str, node: int = 1) -> dict:
+    """Give a document one channel more."""
+    values = np.asarray(values, dtype="<f4")
+    kind = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}[1 if values.ndim == 1 else values.shape[1]]
+    animation = whole["animations"][0]
+    animation["samplers"].append(
+        {
+            "input": appended(whole, np.asarray(times, dtype="<f4"), "SCALAR", 5126),
+            "output": appended(whole, values, kind, 5126),
+            "interpolation": manner,
+        }
+    )
+    target = {"node": node, "path": path}
+    animation["channels"].append({"sampler": len(animation["samplers"]) - 1, "target": target})
+    return whole
 
 
 def test_a_bar_bends_as_its_file_says(tmp_path):
@@ -181,3 +217,135 @@ def test_gltf_and_usd_hold_the_same_figure(shared_data, name):
         spans = np.ptp(points[0], axis=0) - np.ptp(rotate(turn, points[1]), axis=0)
         worst[quarter] = max(apart.min(axis=0).max(), apart.min(axis=1).max(), np.abs(spans).max())
     assert min(worst.values()) < 1e-4
+
+
+def test_channels_of_every_manner_follow_their_closed_forms_through_a_whole_file(tmp_path):
+    cubic = [[0, 3 * t * t, 0, 0, t**3, 0, 0, 3 * t * t, 0] for t in (0.0, 1.0, 2.0)]
+    for manner, values, form in (
+        ("STEP", [[0, 1, 0], [0, 2, 0], [0, 3, 0]], lambda t: 1 + np.floor(t + 1e-6)),
+        ("LINEAR", [[0, 1, 0], [0, 2, 0], [0, 3, 0]], lambda t: 1 + t),
+        ("CUBICSPLINE", np.reshape(cubic, (-1, 3)), lambda t: t**3),
+    ):
+        whole = animated(document(), "translation", [0, 1, 2], values, manner)
+        (animation,) = import_file(written(tmp_path, whole)).animations
+        t = np.arange(len(animation.translation_m)) / animation.rate_hz
+        np.testing.assert_allclose(animation.translation_m[:, 1, 1], form(t), atol=1e-5)
+
+
+def test_an_interpolation_test_of_another_s_making_is_read(shared_data):
+    path = shared_data / "clips" / "gltf" / "interpolation_test.gltf"
+    if not path.with_suffix(".bin").is_file():
+        pytest.skip(f"its numbers are absent: {path.with_suffix('.bin')}")
+    imported = import_file(path)
+    assert len(imported.animations) == 9
+
+
+def test_channels_that_are_constant_may_have_two_keys_far_apart(tmp_path):
+    whole = animated(document(), "translation", [0, 7], [[0, 1, 0], [0, 1, 0]], "LINEAR")
+    (animation,) = import_file(written(tmp_path, whole)).animations
+    assert animation.duration_s == pytest.approx(7.0)
+    np.testing.assert_allclose(animation.translation_m[:, 1], [[0, 1, 0]] * 169, atol=1e-7)
+
+
+def test_a_smooth_scale_is_not_taken_for_one_that_vanishes(tmp_path):
+    keys = [[0] * 3, [1] * 3, [0] * 3, [0] * 3, [2] * 3, [0] * 3]
+    whole = animated(document(), "scale", [0, 1], keys, "CUBICSPLINE", node=0)
+    imported = import_file(written(tmp_path, whole))
+    assert imported.notes == ()
+    (animation,) = imported.animations
+    assert animation.translation_m[-1, 1] == pytest.approx([0, 2, 0])
+
+
+def test_sparse_interleaved_and_normalised_numbers_are_read(tmp_path):
+    whole = document()
+    plain = import_file(written(tmp_path, whole)).meshes[0]
+    row = np.zeros(3, dtype=[("p", "<f4", 3), ("w", "<u2", 4), ("j", "u1", 4)])
+    row["p"], row["w"], row["j"][1:, 0] = [[0, 0, 0], [0, 2, 0], [1, 0, 0]], [65535, 0, 0, 0], 1
+    first = appended(whole, row, "VEC3", 5126)
+    view = whole["accessors"][first]["bufferView"]
+    whole["bufferViews"][view]["byteStride"] = row.itemsize
+    whole["accessors"] += [
+        {**whole["accessors"][first], "byteOffset": 12, "type": "VEC4", "componentType": 5123}
+        | {"normalized": True},
+        {**whole["accessors"][first], "byteOffset": 20, "type": "VEC4", "componentType": 5121},
+    ]
+    at = appended(whole, np.array([2], dtype="<u2"), "SCALAR", 5123)
+    new = appended(whole, np.array([[1, 2, 0]], dtype="<f4"), "VEC3", 5126)
+    whole["accessors"][first]["sparse"] = {
+        "count": 1,
+        "indices": {"bufferView": whole["accessors"][at]["bufferView"], "componentType": 5123},
+        "values": {"bufferView": whole["accessors"][new]["bufferView"]},
+    }
+    whole["meshes"][0]["primitives"][0]["attributes"] = {
+        "POSITION": first,
+        "WEIGHTS_0": first + 1,
+        "JOINTS_0": first + 2,
+    }
+    mesh = import_file(written(tmp_path, whole)).meshes[0]
+    np.testing.assert_array_equal(mesh.points_m, plain.points_m)
+    np.testing.assert_allclose(mesh.joint_weights, plain.joint_weights, atol=1e-12)
+    np.testing.assert_array_equal(mesh.joint_indices, plain.joint_indices)
+
+
+def test_a_node_s_matrix_says_what_its_parts_would(tmp_path):
+    whole = document()
+    plain = import_file(written(tmp_path, whole))
+    whole["nodes"][1] = {
+        "name": "upper",
+        "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1],
+    }
+    imported = import_file(written(tmp_path, whole))
+    np.testing.assert_allclose(
+        imported.skeleton.rest_translation_m, plain.skeleton.rest_translation_m
+    )
+
+
+def test_buffers_lie_in_the_file_s_own_folder_or_below(tmp_path):
+    whole = document()
+    data = base64.b64decode(whole["buffers"][0]["uri"].partition(",")[2])
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "a b.bin").write_bytes(data)
+    whole["buffers"][0]["uri"] = "parts/a%20b.bin"
+    assert len(import_file(written(tmp_path, whole)).skeleton) == 2
+
+
+def test_morph_targets_are_named_and_their_weights_sampled(tmp_path):
+    whole = document()
+    moved = appended(whole, np.zeros((3, 3), dtype="<f4"), "VEC3", 5126)
+    mesh = whole["meshes"][0]
+    mesh["primitives"][0]["targets"] = [{"POSITION": moved}, {"POSITION": moved}]
+    mesh |= {"weights": [0.0, 0.25], "extras": {"targetNames": ["smile", "smile"]}}
+    still = import_file(written(tmp_path, whole))
+    assert still.shapes == ("smile", "smile_2")
+    assert still.animations[0].shape_weights is None
+    animated(whole, "weights", [0, 1], [0.0, 0.5, 1.0, 0.5], "LINEAR", node=2)
+    (animation,) = import_file(written(tmp_path, whole)).animations
+    assert animation.shape_weights.shape == (25, 2)
+    np.testing.assert_allclose(animation.shape_weights[:, 0], np.arange(25) / 24, atol=1e-6)
+    np.testing.assert_allclose(animation.shape_weights[:, 1], 0.5)
+
+
+def test_real_morph_targets_are_found(shared_data):
+    robot = import_file(shared_data / "clips" / "gltf" / "RobotExpressive.glb")
+    assert len(robot.shapes) > 0
+
+
+def test_gltf_and_usd_move_the_same_figure_alike(shared_data):
+    """CesiumMan's glTF starts a 24th of a second before its USD; and turns a quarter."""
+    for name, quarter, rows in (
+        ("CesiumMan", 1, (slice(1, None), slice(None))),
+        ("RiggedFigure", 0, (slice(0, 36, 5), slice(0, 29, 4))),  # 30 and 24 Hz: each 1/6 s
+    ):
+        one = import_file(shared_data / "clips" / "gltf" / name / "glTF-Binary" / f"{name}.glb")
+        other = import_file(shared_data / "clips" / "usd" / f"{name}.usdz")
+        turn = quaternion_about([0.0, 1.0, 0.0], quarter * np.pi / 2)
+        rests, moving = [], []
+        for x in (one, other):
+            s, a = x.skeleton, x.animations[0]
+            rests.append(forward_kinematics(s, s.rest_rotation_xyzw, s.rest_translation_m)[1])
+            moving.append(forward_kinematics(s, a.rotation_xyzw, a.translation_m)[1])
+        apart = np.linalg.norm(rests[0][:, None] - rotate(turn, rests[1])[None], axis=-1)
+        same = apart.argmin(axis=1)
+        assert sorted(same) == list(range(len(same)))
+        theirs = rotate(turn, moving[1][rows[1]])[:, same]
+        np.testing.assert_allclose(moving[0][rows[0]], theirs, atol=1e-4)

@@ -1,0 +1,190 @@
+"""The animation that a UsdSkel skeleton is bound to, sampled at the stage's frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from pxr import Usd, UsdGeom, UsdSkel
+
+from actions_library.importers.imported import Animation, check_poses, fault, rigid
+from actions_library.importers.usd_values import numbers, texts
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import (
+    IDENTITY_XYZW,
+    matrix_from_quaternion,
+    normalized,
+    sign_continuous,
+)
+
+FASTEST_HZ = 240.0
+"""Rate at which stages of more time codes per second are sampled."""
+
+_BLOCK = 100_000  # poses that become matrices at once
+
+
+def read_animation(
+    path: Path,
+    stage: Usd.Stage,
+    skeleton: UsdSkel.Skeleton,
+    joints: Sequence[str],
+    parents: Sequence[int],
+    rest: FloatArray,
+    change: FloatArray,
+    shapes: Sequence[str],
+) -> tuple[Animation | None, list[str], list[str]]:
+    """Return the animation if there is one, the names of all shapes, and what was left out.
+
+    Parameters
+    ----------
+    joints, parents, rest
+        Paths of the skeleton's joints, their parents' places, and their local matrices at rest.
+    change
+        ``(4, 4)`` from the file's axes and unit to ours.
+    shapes
+        Names of blend shapes that meshes have; those that only the animation has come behind.
+    """
+    prim = UsdSkel.BindingAPI(skeleton).GetInheritedAnimationSource()
+    source = UsdSkel.Animation(prim) if prim else None
+    if not source:
+        return None, list(shapes), []
+    own_shapes = texts(path, source.GetBlendShapesAttr())
+    names = list(dict.fromkeys([*shapes, *own_shapes]))
+    attributes = (*_parts_of(source), source.GetBlendShapeWeightsAttr())
+    times = sorted({t for attribute in attributes for t in attribute.GetTimeSamples()})
+    if len(times) < 2:
+        return None, names, []
+    where = str(prim.GetPath())
+    rate_hz, codes = _codes(path, where, stage, times, len(joints) + len(names))
+    own = texts(path, source.GetJointsAttr())
+    moved = _Moved.read(path, source, own, codes)
+    if moved.scale is not None and np.abs(moved.scale).min(initial=1.0) < 1e-6:
+        return None, names, [f"animation {prim.GetName()!r} scales joints to nothing: left out"]
+    place = {joint: j for j, joint in enumerate(joints)}
+    at = [(k, place[joint]) for k, joint in enumerate(own) if joint in place]
+    world = _world(skeleton, codes)
+    blocks = []
+    step = max(_BLOCK // len(joints), 1)
+    for first in range(0, len(codes), step):
+        rows = slice(first, first + step)
+        local = np.tile(rest, (len(codes[rows]), 1, 1, 1))
+        local[:, [j for _, j in at]] = moved.matrices(rows)[:, [k for k, _ in at]]
+        poses = change @ world[rows if len(world) > 1 else slice(None), None]
+        blocks.append(rigid(path, where, poses @ chained(local, parents), parents))
+    rotation = sign_continuous(np.concatenate([q for q, _ in blocks]))
+    translation = np.concatenate([t for _, t in blocks])
+    weights = _weights(path, source, own_shapes, names, codes)
+    return Animation(prim.GetName(), rate_hz, rotation, translation, weights), names, []
+
+
+def chained(local: FloatArray, parents: Sequence[int]) -> FloatArray:
+    """Return transforms from the first joint on, ``(…, j, 4, 4)``."""
+    found = local.copy()
+    for j, parent in enumerate(parents):
+        if parent >= 0:
+            found[..., j, :, :] = found[..., parent, :, :] @ local[..., j, :, :]
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Moved:
+    """The parts of an animation's own joints, ``(n, k, c)``; None where it has none of a part."""
+
+    count: int
+    frames: int
+    translation: FloatArray | None
+    rotation: FloatArray | None
+    scale: FloatArray | None
+
+    @classmethod
+    def read(
+        cls, path: Path, source: UsdSkel.Animation, joints: Sequence[str], codes: FloatArray
+    ) -> _Moved:
+        parts = [
+            _over_time(path, attribute, codes, len(joints), width) if joints else None
+            for attribute, width in zip(_parts_of(source), (3, 4, 3), strict=True)
+        ]
+        return cls(len(joints), len(codes), *parts)
+
+    def matrices(self, rows: slice) -> FloatArray:
+        """Return some frames' local matrices, ``(n, k, 4, 4)``."""
+        count = len(range(*rows.indices(self.frames)))
+        found = np.tile(np.eye(4), (count, self.count, 1, 1))
+        if self.rotation is not None:
+            length = np.linalg.norm(self.rotation[rows], axis=-1, keepdims=True)
+            turns = np.where(length > 0.0, self.rotation[rows], IDENTITY_XYZW)
+            found[..., :3, :3] = matrix_from_quaternion(normalized(turns))
+        if self.scale is not None:
+            found[..., :3, :3] *= self.scale[rows][..., None, :]
+        if self.translation is not None:
+            found[..., :3, 3] = self.translation[rows]
+        return found
+
+
+def _parts_of(source: UsdSkel.Animation) -> tuple[Usd.Attribute, Usd.Attribute, Usd.Attribute]:
+    return source.GetTranslationsAttr(), source.GetRotationsAttr(), source.GetScalesAttr()
+
+
+def _codes(
+    path: Path, where: str, stage: Usd.Stage, times: Sequence[float], joints: int
+) -> tuple[float, FloatArray]:
+    """Return the rate, and the time code of each frame from the first sample to the last."""
+    codes_per_s = stage.GetTimeCodesPerSecond()
+    if not (np.isfinite(codes_per_s) and codes_per_s > 0.0):
+        raise fault(path, "timeCodesPerSecond", "a positive number", codes_per_s)
+    if not np.isfinite(times).all():
+        raise fault(path, where, "finite time codes", "another")
+    rate_hz = min(codes_per_s, FASTEST_HZ)
+    with np.errstate(over="ignore"):
+        frames = np.round((times[-1] - times[0]) / codes_per_s * rate_hz) + 1.0
+    check_poses(path, where, max(frames, 2.0), joints)
+    steps = np.arange(int(max(frames, 2.0)))
+    return rate_hz, np.minimum(times[0] + steps * codes_per_s / rate_hz, times[-1])
+
+
+def _over_time(
+    path: Path, attribute: Usd.Attribute, codes: FloatArray, count: int, *shape: int
+) -> FloatArray | None:
+    """Return an attribute's values ``(n, count, *shape)`` at time codes; None without any."""
+    frames = len(codes)
+    if not attribute.ValueMightBeTimeVarying():
+        codes = codes[:1]
+    found = [numbers(path, attribute, *shape, time=float(code)) for code in codes]
+    if found[0] is None or not len(found[0]):
+        return None
+    for code, values in zip(codes, found, strict=True):
+        if values is None or len(values) != count or not np.isfinite(values).all():
+            place = f"{attribute.GetPath()}, time code {code:g}"
+            raise fault(path, place, f"{count} finite values", 0 if values is None else len(values))
+    values = np.stack([v for v in found if v is not None])
+    return np.broadcast_to(values, (frames, *values.shape[1:]))
+
+
+def _world(skeleton: UsdSkel.Skeleton, codes: FloatArray) -> FloatArray:
+    """Return where a skeleton stands in the world, ``(n, 4, 4)``, or ``(1, 4, 4)`` if it stays."""
+    prim, moves = skeleton.GetPrim(), False
+    while prim:
+        moves = moves or UsdGeom.Xformable(prim).TransformMightBeTimeVarying()
+        prim = prim.GetParent()
+    place = UsdGeom.Xformable(skeleton)
+    found = [place.ComputeLocalToWorldTransform(float(c)) for c in (codes if moves else codes[:1])]
+    return np.swapaxes(np.array(found, dtype=np.float64), -1, -2)
+
+
+def _weights(
+    path: Path,
+    source: UsdSkel.Animation,
+    own: Sequence[str],
+    names: Sequence[str],
+    codes: FloatArray,
+) -> FloatArray | None:
+    """Return the weights of all shapes ``(n, s)``; None where none is moved."""
+    attribute = source.GetBlendShapeWeightsAttr()
+    found = _over_time(path, attribute, codes, len(own)) if own else None
+    if found is None:
+        return None
+    weights = np.zeros((len(codes), len(names)))
+    weights[:, [names.index(name) for name in own]] = found
+    return weights

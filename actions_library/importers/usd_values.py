@@ -1,0 +1,55 @@
+"""Values of USD attributes: whatever a file may hold, arrays of a known shape or a refusal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pxr import Usd
+
+from actions_library.importers.imported import fault
+from smd.geometry.arrays import FloatArray
+
+
+def numbers(
+    path: Path, attribute: Any, *shape: int, time: float | None = None
+) -> FloatArray | None:
+    """Return an attribute's values ``(n, *shape)``; None where it has none.
+
+    Quaternions are xyzw, as they lie in memory.
+
+    Raises
+    ------
+    ImportedFileError
+        If they are no numbers, or of another shape.
+    """
+    value = attribute.Get(Usd.TimeCode.Default() if time is None else time)
+    if value is None:
+        return None
+    where = str(attribute.GetPath())
+    expected = f"rows of {' times '.join(map(str, shape))} numbers" if shape else "numbers"
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise fault(path, where, expected, type(value).__name__) from None
+    if not array.size:
+        return np.empty((0, *shape))
+    if array.ndim != 1 + len(shape) or array.shape[1:] != shape:
+        raise fault(path, where, expected, f"an array of shape {array.shape}")
+    return array
+
+
+def texts(path: Path, attribute: Any) -> list[str]:
+    """Return an attribute's texts; none where it has none.
+
+    Raises
+    ------
+    ImportedFileError
+        If it holds something else.
+    """
+    value = attribute.Get()
+    try:
+        return [str(text) for text in (() if value is None else value)]
+    except TypeError:
+        raise fault(path, str(attribute.GetPath()), "texts", type(value).__name__) from None
