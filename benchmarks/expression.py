@@ -20,7 +20,8 @@ from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.doodle import Doodle
 from smd.smoothing import smooth
-from smd.transfer.expression import body_of, expressive
+from smd.transfer.body import body_of
+from smd.transfer.expression import expressive
 
 VALUES = (-1.0, -0.5, 0.0, 0.5, 1.0)
 LEAST = 0.5

@@ -16,7 +16,8 @@ from exporters.action_picture import write_action_picture
 from exporters.filmstrip import write_filmstrip
 from exporters.timeline import write_timeline
 from laban import Effort
-from smd.transfer.expression import body_of, expressive
+from smd.transfer.body import body_of
+from smd.transfer.expression import expressive
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE.parents[1] / "recordings"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -25,12 +27,22 @@ def forward_kinematics(
     local_q = np.asarray(rotation_xyzw, dtype=np.float64)
     local_t = np.asarray(translation_m, dtype=np.float64)
     world_q, world_p = np.empty_like(local_q), np.empty_like(local_t)
-    for joint, parent in enumerate(skeleton.parents):
-        q, t = local_q[..., joint, :], local_t[..., joint, :]
-        if parent < 0:
-            world_q[..., joint, :], world_p[..., joint, :] = q, t
+    for joints, parents in _generations(skeleton.parents.tolist()):
+        q, t = local_q[..., joints, :], local_t[..., joints, :]
+        if parents[0] < 0:
+            world_q[..., joints, :], world_p[..., joints, :] = q, t
             continue
-        parent_q = world_q[..., parent, :]
-        world_q[..., joint, :] = multiply(parent_q, q)
-        world_p[..., joint, :] = world_p[..., parent, :] + rotate(parent_q, t)
+        parent_q = world_q[..., parents, :]
+        world_q[..., joints, :] = multiply(parent_q, q)
+        world_p[..., joints, :] = world_p[..., parents, :] + rotate(parent_q, t)
     return world_q, world_p
+
+
+def _generations(parents: list[int]) -> Iterator[tuple[list[int], list[int]]]:
+    """Yield the roots, their children, and so on; of each joints and their parents."""
+    depth: list[int] = []
+    for parent in parents:
+        depth.append(0 if parent < 0 else depth[parent] + 1)
+    for generation in range(max(depth) + 1):
+        joints = [joint for joint, at in enumerate(depth) if at == generation]
+        yield joints, [parents[joint] for joint in joints]

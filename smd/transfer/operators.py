@@ -48,13 +48,14 @@ def retimed(clip: Clip, source_frame: FloatArray) -> Clip:
     rotation = normalized(a + share * (b - a))
     a, b = clip.translation_m[left], clip.translation_m[left + 1]
     translation = a + share * (b - a)
-    ends = np.searchsorted(source_frame, clip.stage_end_frames - 1e-6)
+    ends = np.minimum(np.searchsorted(source_frame, clip.stage_end_frames - 1e-6), last)
+    ends[-1] = last  # a clip that has ended stands on
     nearest = np.round(source_frame).astype(np.int64)
     return replace(
         clip,
         rotation_xyzw=rotation,
         translation_m=translation,
-        stage_end_frames=np.minimum(ends, last),
+        stage_end_frames=ends,
         contacts=clip.contacts[nearest],
     )
 

@@ -12,7 +12,8 @@ from laban import Effort
 from smd.character.clip import Clip
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
-from smd.transfer.expression import body_of, expressive
+from smd.transfer.body import body_of
+from smd.transfer.expression import expressive
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.legs import Leg, feet_of, legs_of, world_of, yaw_of
@@ -99,26 +100,25 @@ class Repertoire:
         return self.rests.get(action, IDLE)
 
 
-EFFORT_STEPS = 5
-"""Steps from neutral to a pole in which Effort is played: phrases that are nearer share a clip."""
+EFFORT_STEPS = {"time": 5, "weight": 5, "space": 2, "flow": 2}
+"""Steps from neutral to a pole in which an axis is played: phrases that are nearer share a clip."""
 
 
 def played_effort(effort: Effort, expressiveness: float) -> Effort:
     """Return the Effort that is played for one that was read, in steps, within its poles."""
 
-    def stepped(value: float | None) -> float:
-        scaled = 0.0 if value is None else float(np.clip(expressiveness * value, -1.0, 1.0))
-        return round(scaled * EFFORT_STEPS) / EFFORT_STEPS
+    def stepped(axis: str, steps: int) -> float:
+        scaled = float(np.clip(expressiveness * (getattr(effort, axis) or 0.0), -1.0, 1.0))
+        return round(scaled * steps) / steps
 
-    return Effort(time=stepped(effort.time), weight=stepped(effort.weight))
+    return Effort(**{axis: stepped(axis, steps) for axis, steps in EFFORT_STEPS.items()})
 
 
 def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
     """Return what a piece is called: the action, and its Effort where it is not neutral."""
     played = played_effort(effort, expressiveness)
-    if not played.time and not played.weight:
-        return action
-    return f"{action} time {played.time:+.1f} weight {played.weight:+.1f}"
+    shown = {axis: getattr(played, axis) for axis in EFFORT_STEPS}
+    return " ".join([action, *(f"{axis} {value:+.1f}" for axis, value in shown.items() if value)])
 
 
 def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: float) -> Repertoire:

@@ -13,16 +13,14 @@ from laban import Effort
 from smd.character.kinematics import forward_kinematics
 from smd.errors import TransferError
 from smd.geometry.rotations import inverse, multiply, rotvec_from_quaternion, slerp
-from smd.transfer.expression import (
-    FASTEST,
-    body_of,
-    expressive,
-    time_timing,
-    weight_timing,
-    within_pace,
-)
+from smd.transfer.body import body_of
+from smd.transfer.expression import effort_timing, expressive
 from smd.transfer.operators import rescaled, reshaped, retimed, softened_power, stage_timing
+from smd.transfer.reaching import with_hand_moved, world_of_clip
 from smd.transfer.repertoire import piece_name, played_effort
+from smd.transfer.springs import DAMPING, SPRING_HZ, damped, sprung
+from smd.transfer.timing import FASTEST, held_timing, pace_timing, time_timing, within_pace
+from smd.transfer.tracing import redrawn, sweeps
 
 LIBRARY = load_library()
 BODY = body_of(LIBRARY.clip("idle"))
@@ -43,7 +41,7 @@ def same(one, other, atol=0.0):
 
 @pytest.mark.parametrize("name", [*ONCE, "walk", "fly"])
 def test_without_effort_a_clip_is_the_same(name):
-    for effort in (Effort(), Effort(time=0.0, weight=0.0), Effort(space=1.0, flow=-1.0)):
+    for effort in (Effort(), Effort(time=0.0, weight=0.0), Effort(space=0.0, flow=0.0)):
         travels = LIBRARY.action(name).travels
         assert expressive(LIBRARY.clip(name), effort, BODY, travels=travels) is LIBRARY.clip(name)
 
@@ -79,7 +77,8 @@ def test_a_sudden_punch_waits_and_bursts_and_a_sustained_one_does_not():
         return float(clip.stage_end_frames[stage] - clip.stage_end_frames[stage - 1])
 
     sudden, neutral, sustained = (played("punch", t, 0.0) for t in (1.0, 0.0, -1.0))
-    assert lasts(sudden, 1) > lasts(neutral, 1) > lasts(sustained, 1)
+    begins = [clip.stage_end_frames[1] for clip in (sudden, neutral, sustained)]
+    assert begins[0] > begins[1] > begins[2]
     assert lasts(sudden, 2) < lasts(neutral, 2) < lasts(sustained, 2)
 
 
@@ -176,7 +175,7 @@ def test_every_timing_goes_on_from_the_first_frame_to_the_last(lasting, power, n
 
 
 @pytest.mark.parametrize("value", [-1.0, -0.4, 0.4, 1.0])
-@pytest.mark.parametrize("timing", [time_timing, weight_timing])
+@pytest.mark.parametrize("timing", [time_timing, pace_timing])
 def test_effort_s_timings_go_on_too(timing, value):
     for name in ONCE:
         frames = timing(LIBRARY.clip(name), value)
@@ -205,12 +204,154 @@ def test_reshaping_adds_its_angle_about_the_left_axis():
 
 
 def test_the_dial_scales_what_is_played_and_never_beyond_the_poles():
-    effort = Effort(time=0.62, weight=-0.97, space=1.0)
-    assert played_effort(effort, 0.0) == Effort(time=0.0, weight=0.0)
-    assert played_effort(effort, 1.0) == Effort(time=0.6, weight=-1.0)
-    assert played_effort(effort, 2.0) == Effort(time=1.0, weight=-1.0)
+    effort = Effort(time=0.62, weight=-0.97, space=0.6)
+    assert played_effort(effort, 0.0) == Effort(time=0.0, weight=0.0, space=0.0, flow=0.0)
+    assert played_effort(effort, 1.0) == Effort(time=0.6, weight=-1.0, space=0.5, flow=0.0)
+    assert played_effort(effort, 2.0) == Effort(time=1.0, weight=-1.0, space=1.0, flow=0.0)
     assert piece_name("bow", effort, 0.0) == "bow"
-    assert piece_name("bow", effort, 1.0) == "bow time +0.6 weight -1.0"
+    assert piece_name("bow", effort, 1.0) == "bow time +0.6 weight -1.0 space +0.5"
+
+
+@pytest.mark.parametrize("time", [-1.0, 0.0, 0.5, 1.0])
+@pytest.mark.parametrize(("weight", "flow"), [(0.0, 1.0), (1.0, 0.0), (-1.0, -1.0), (1.0, 1.0)])
+def test_all_timings_together_go_on_and_keep_the_length(time, weight, flow):
+    for name in ONCE:
+        clip = LIBRARY.clip(name)
+        frames = effort_timing(clip, time, weight, flow)
+        assert frames[0] == pytest.approx(0.0, abs=1e-9)
+        assert frames[-1] == pytest.approx(len(clip) - 1)
+        assert np.diff(frames).min() >= 0.0
+        assert np.diff(frames).max() <= FASTEST + 0.1
+
+
+def test_a_sudden_clip_is_still_before_and_after():
+    frames = effort_timing(LIBRARY.clip("throw"), 1.0, 0.0, 0.0)
+    busy = np.mean((frames > 0.0) & (frames < frames[-1]))
+    assert busy == pytest.approx(np.exp(-0.6), abs=0.02)
+
+
+def test_a_held_clip_rests_at_the_ends_of_its_stages():
+    clip = LIBRARY.clip("throw")
+    pace = np.diff(held_timing(clip, 1.0))
+    for end in clip.stage_end_frames[:-1]:
+        assert pace[end - 1 : end + 1].max() < 0.45
+    assert pace.sum() == pytest.approx(len(clip) - 1)
+
+
+def arc(bow: float, n: int = 61) -> np.ndarray:
+    """Return a sweep along x of length 1 from rest to rest that bows out upward."""
+    u = np.linspace(0.0, 1.0, n)
+    u = u * u * (3.0 - 2.0 * u)
+    return np.stack([u, bow * np.sin(np.pi * u), np.zeros(n)], axis=-1)
+
+
+def test_there_and_back_are_two_sweeps():
+    there = arc(0.2)
+    assert sweeps(np.concatenate([there, there[-2::-1]]), 60.0) == [(0, 60), (60, 120)]
+
+
+def test_a_direct_hand_goes_straighter_and_an_indirect_one_bends():
+    def bend(path: np.ndarray) -> float:
+        return float(np.linalg.norm(path[:, 1:], axis=-1).max())
+
+    for bow in (0.1, 0.3):
+        path = arc(bow)
+        for space in (0.5, 1.0):
+            assert bend(path + redrawn(path, space, 60.0)) < (1.0 - 0.6 * space) * bow
+            assert bend(path + redrawn(path, -space, 60.0)) > bow + 0.08 * space
+    straight = arc(0.0)
+    np.testing.assert_allclose(redrawn(straight, 1.0, 60.0), 0.0, atol=1e-12)
+    for path in (straight, arc(0.3)):
+        for space in (-1.0, 1.0):
+            np.testing.assert_allclose(redrawn(path, space, 60.0)[[0, -1]], 0.0, atol=1e-9)
+
+
+def test_a_circle_has_no_straight_way():
+    turn = np.linspace(0.0, 2.0 * np.pi, 121)
+    circle = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=-1)
+    assert np.abs(redrawn(circle, 1.0, 60.0)).max() < 1e-9
+
+
+def test_a_redrawn_path_turns_with_the_world():
+    from smd.geometry.rotations import quaternion_from_rotvec, rotate
+
+    q, path = quaternion_from_rotvec(np.array([0.3, -0.8, 0.5])), arc(0.2)
+    for space in (-1.0, 1.0):
+        turned = redrawn(rotate(q, path), space, 60.0)
+        np.testing.assert_allclose(turned, rotate(q, redrawn(path, space, 60.0)), atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["throw", "clap", "crawl"])
+def test_a_hand_is_moved_by_what_was_asked_and_by_nothing_where_nothing_was(name):
+    clip = LIBRARY.clip(name)
+    for arm in BODY.arms:
+        world = world_of_clip(clip)
+        same(with_hand_moved(clip, arm, np.zeros((len(clip), 3)), world), clip, 1e-9)
+        toward = world.position_m[:, BODY.chest] - world.position_m[:, arm.hand]
+        moved = world_of_clip(with_hand_moved(clip, arm, 0.2 * toward, world)).position_m
+        gap = moved[:, arm.hand] - world.position_m[:, arm.hand] - 0.2 * toward
+        assert np.abs(gap).max() < 0.02
+
+
+def test_a_spring_swings_over_as_its_damping_says_and_comes_to_rest():
+    clip = LIBRARY.clip("idle")
+    hand = BODY.arms[0].hand
+    n, start = len(clip), 60
+    angle = np.where(np.arange(n) < start, 0.0, 0.4)
+    from dataclasses import replace
+
+    from smd.geometry.rotations import quaternion_about
+
+    rotation = clip.rotation_xyzw.copy()
+    rotation[:, hand] = quaternion_about([0.0, 1.0, 0.0], angle)
+    stepping = replace(clip, rotation_xyzw=rotation, cyclic=False)
+    swung = sprung(stepping, [hand], BODY, np.ones(n)).rotation_xyzw[:, hand]
+    turned = 2.0 * np.arctan2(swung[:, 1], swung[:, 3])
+    over = np.exp(-np.pi * DAMPING / np.sqrt(1.0 - DAMPING**2))
+    assert turned.max() / 0.4 - 1.0 == pytest.approx(over, abs=0.02)
+    assert turned[-1] == pytest.approx(0.4, abs=1e-3)
+    first_top = (int(np.argmax(turned)) - start) / clip.rate_hz
+    assert 0.5 / SPRING_HZ < first_top < 1.0 / SPRING_HZ
+
+
+@pytest.mark.parametrize("name", ["throw", "wave", "walk", "dance"])
+@pytest.mark.parametrize("flow", [-1.0, 1.0])
+@pytest.mark.parametrize("space", [-1.0, 1.0])
+def test_space_and_flow_break_no_elbow_and_no_cycle(name, flow, space):
+    clip = LIBRARY.clip(name)
+    travels = LIBRARY.action(name).travels
+    clip = expressive(clip, Effort(space=space, flow=flow), BODY, travels=travels)
+    place = world_of_clip(clip).position_m
+    q = world_of_clip(clip).rotation_xyzw
+    for arm in BODY.arms:
+        upper = place[:, arm.middle] - place[:, arm.upper]
+        lower = place[:, arm.hand] - place[:, arm.middle]
+        from smd.geometry.rotations import rotate
+
+        hinge = rotate(q[:, arm.upper], arm.limb.upper_hinge)
+        sine = np.sum(np.cross(upper, lower) * hinge, axis=-1)
+        sine /= np.linalg.norm(upper, axis=-1) * np.linalg.norm(lower, axis=-1)
+        assert np.degrees(np.arcsin(sine.min())) > -3.0  # people's elbows reach 5 degrees beyond
+    if clip.cyclic:
+        dots = np.abs(np.sum(clip.rotation_xyzw[0, 1:] * clip.rotation_xyzw[-1, 1:], axis=-1))
+        assert dots.min() > 1.0 - 1e-3
+
+
+def test_damping_leaves_what_is_slow_and_takes_what_is_quick():
+    from dataclasses import replace
+
+    from smd.geometry.rotations import quaternion_about
+
+    clip, hand = LIBRARY.clip("idle"), BODY.arms[0].hand
+    time_s = np.arange(len(clip)) / clip.rate_hz
+    for hz in (0.25, 6.0):
+        rotation = clip.rotation_xyzw.copy()
+        rotation[:, hand] = quaternion_about([1.0, 0.0, 0.0], 0.2 * np.sin(2 * np.pi * hz * time_s))
+        shaking = replace(clip, rotation_xyzw=rotation, cyclic=False)
+        left = damped(shaking, [hand], np.ones(len(clip))).rotation_xyzw[30:-30, hand]
+        kept = np.ptp(2.0 * np.arctan2(left[:, 0], left[:, 3])) / 0.4
+        # A Gaussian's own answer to a sine.
+        assert kept == pytest.approx(np.exp(-0.5 * (2 * np.pi * hz * 0.07) ** 2), abs=0.03)
 
 
 def test_a_performance_with_the_dial_at_0_is_neutral_and_above_it_is_not():

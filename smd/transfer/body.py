@@ -1,0 +1,106 @@
+"""Body: what of a skeleton expresses Effort."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from smd.character.clip import Clip
+from smd.character.ik import Limb, limb_of
+from smd.character.kinematics import forward_kinematics
+from smd.character.roles import BodyPlan, LimbPlan, body_plan
+from smd.character.skeleton import Skeleton
+from smd.errors import CharacterError
+from smd.geometry.arrays import FloatArray, IntArray
+
+BEHIND = (0.0, 0.0, -1.0)
+"""Where the elbow of a resting arm points."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Arm:
+    """A hand and the two joints that carry it.
+
+    Attributes
+    ----------
+    upper, middle, hand : indices of shoulder, elbow and wrist.
+    limb : upper arm and forearm.
+    """
+
+    upper: int
+    middle: int
+    hand: int
+    limb: Limb
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """What of a skeleton expresses.
+
+    Attributes
+    ----------
+    spine : joints that bend with Weight, without neck and head: the eyes stay on what they look at.
+    neck : the joint that takes the bend back; None without a head.
+    head : the joint that looks; None without one.
+    chest : what the arms hang from.
+    upper : joints that are rescaled in a gait: spine, arms, and what hangs from them.
+    every : joints that are rescaled in anything else.
+    hinges : elbows and knees, which are never enlarged.
+    arms : that two-bone inverse kinematics can turn.
+    rest_xyzw : (j, 4) how each joint is turned in the world at rest.
+    """
+
+    spine: tuple[int, ...]
+    neck: int | None
+    head: int | None
+    chest: int
+    upper: tuple[int, ...]
+    every: tuple[int, ...]
+    hinges: frozenset[int]
+    arms: tuple[Arm, ...]
+    rest_xyzw: FloatArray
+
+
+def body_of(clip: Clip) -> Body:
+    """Return what of a clip's skeleton expresses."""
+    skeleton = clip.skeleton
+    turned, place = forward_kinematics(
+        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
+    )
+    plan = body_plan(skeleton.joints, skeleton.parents.tolist(), place, front=(0.0, 0.0, 1.0))
+    trunk = plan.spine[: plan.spine.index(plan.chest) + 1] if plan.chest in plan.spine else ()
+    after = plan.spine[len(trunk) :]
+    legs = {joint for limb in plan.limbs if limb.kind == "leg" for joint in limb.chain}
+    lower = legs | set(plan.root)
+    every = tuple(j for j in range(1, len(skeleton)) if j not in plan.root[:-1])
+    arms = (_arm(skeleton, limb) for limb in plan.limbs if limb.kind == "arm")
+    return Body(
+        spine=trunk,
+        neck=after[0] if after else None,
+        head=plan.head,
+        chest=plan.chest,
+        upper=tuple(j for j in every if j not in lower and not _below(plan, skeleton.parents, j)),
+        every=every,
+        hinges=frozenset(limb.middle for limb in plan.limbs),
+        arms=tuple(arm for arm in arms if arm),
+        rest_xyzw=turned,
+    )
+
+
+def _arm(skeleton: Skeleton, plan: LimbPlan) -> Arm | None:
+    """Return an arm, or None where its joints are not those of two bones."""
+    chain = plan.upper, plan.middle, plan.end
+    try:
+        limb = limb_of(skeleton, *(skeleton.joints[j] for j in chain), BEHIND)
+    except CharacterError:
+        return None
+    return Arm(*chain, limb)
+
+
+def _below(plan: BodyPlan, parents: IntArray, joint: int) -> bool:
+    """Return whether a joint hangs from a leg."""
+    legs = {j for limb in plan.limbs if limb.kind == "leg" for j in limb.chain}
+    while joint >= 0:
+        if joint in legs:
+            return True
+        joint = int(parents[joint])
+    return False
