@@ -1,24 +1,36 @@
 """Effort read back from what was played: `python -m benchmarks.expression`.
 
-Each action that is played once is acted in its own time with Time and Weight from -1 to 1. The
-hand that moves most, and the pelvis, are read as if each were a prop, a tenth as large as the
-character, by the shipped reader. A pair of performances that differ by 0.5 or more on one axis,
-all else equal, is in order if what is read differs the same way; it is mistaken if more is read to
-have changed on the other axis.
+Each action that is played once is acted in its own time with Time and Weight from -1 to 1, and
+with Space and Flow. The hand that moves most, and the pelvis, are described as if each were a prop
+a tenth as large as the character. Two readers read them:
+
+- ``others``: Laban's logistic regression of everything, learned from the *other* actions, each
+  action's descriptions beside the mean of its own: whether what Effort does to one action can be
+  told from what it does to others.
+- ``shipped``: the model that reads doodles, as it is.
+
+A pair of performances that differ by 0.5 or more on one axis, all else equal, is in order if what
+is read differs the same way; it is mistaken if more is read to have changed on the other axis of
+the two.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import combinations
+from collections.abc import Iterator, Mapping
+from itertools import combinations, product
 
 import numpy as np
 
 from actions_library.folder import load_library
-from laban import Effort, load_effort_model, read_effort
+from laban import Effort, EffortModel, load_effort_model
+from laban.description import DESCRIPTION_NAMES, FAMILIES, describe
+from laban.linear import fit_linear
+from laban.model import effort_of
+from laban.stillness import is_readable
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.doodle import Doodle
+from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
 from smd.transfer.body import body_of
 from smd.transfer.expression import expressive
@@ -26,8 +38,16 @@ from smd.transfer.expression import expressive
 VALUES = (-1.0, -0.5, 0.0, 0.5, 1.0)
 LEAST = 0.5
 FIGURINE = 0.1
-AXES = ("time", "weight")
+PAIRS_OF_AXES = (("time", "weight"), ("space", "flow"))
 PARTS = ("hand", "pelvis")
+
+State = tuple[float, float]
+Descriptions = dict[tuple[str, State], dict[str, FloatArray]]
+"""By action and what was played on two axes: of each part that moves."""
+Odds = Mapping[tuple[str, State], FloatArray]
+"""What was read: log odds of both axes, ``(2,)``."""
+
+_EVERYTHING = [DESCRIPTION_NAMES.index(name) for name in FAMILIES["everything"]]
 
 
 def prop_of(clip: Clip, joint: int) -> Doodle:
@@ -45,57 +65,90 @@ def joints_of(clip: Clip) -> dict[str, int]:
     return {"hand": hands[int(np.argmax(way))], "pelvis": clip.skeleton.index("hips")}
 
 
-def readings() -> Iterator[tuple[str, dict[tuple[float, float], dict[str, Effort]]]]:
-    """Yield each action with what is read of it, by the Time and Weight it was played with."""
-    library, model = load_library(), load_effort_model()
+def played_descriptions(axes: tuple[str, str]) -> Descriptions:
+    """Play every action that is played once in all states of two axes, and describe it."""
+    library = load_library()
     body = body_of(library.clip("idle"))
+    found: Descriptions = {}
     for action in library.actions:
         neutral = library.clip(action.name)
         if neutral.cyclic:
             continue
         joints = joints_of(neutral)
-        read: dict[tuple[float, float], dict[str, Effort]] = {}
-        for time in VALUES:
-            for weight in VALUES:
-                effort = Effort(time=time, weight=weight)
-                clip = expressive(neutral, effort, body, travels=action.travels)
-                read[time, weight] = {
-                    part: read_effort(smooth(prop_of(clip, joint)), model)
-                    for part, joint in joints.items()
-                }
-        yield action.name, read
+        for state in product(VALUES, VALUES):
+            effort = Effort(**dict(zip(axes, state, strict=True)))
+            clip = expressive(neutral, effort, body, travels=action.travels)
+            motions = {part: smooth(prop_of(clip, joint)) for part, joint in joints.items()}
+            found[action.name, state] = {
+                part: describe(motion) for part, motion in motions.items() if is_readable(motion)
+            }
+    return found
+
+
+def read_by_others(descriptions: Descriptions, parts: tuple[str, ...]) -> Odds:
+    """Read each action by a reader that has learned from all others."""
+    keys = [key for key, found in descriptions.items() if all(part in found for part in parts)]
+    seen = np.array(
+        [np.concatenate([descriptions[key][part][_EVERYTHING] for part in parts]) for key in keys]
+    )
+    whose = np.array([name for name, _ in keys])
+    states = np.array([state for _, state in keys])
+    for name in np.unique(whose):
+        seen[whose == name] -= seen[whose == name].mean(axis=0)
+    odds = np.zeros((len(keys), 2))
+    for name in np.unique(whose):
+        asked = whose == name
+        for i in range(2):
+            known = ~asked & (states[:, i] != 0.0)
+            low, high = seen[known].min(axis=0), seen[known].max(axis=0)
+            reader = fit_linear(seen[known], states[known, i] > 0.0)
+            odds[asked, i] = reader.log_odds(np.clip(seen[asked], low, high))
+    return dict(zip(keys, odds, strict=True))
+
+
+def read_as_doodles(
+    descriptions: Descriptions, parts: tuple[str, ...], axes: tuple[str, str], model: EffortModel
+) -> Odds:
+    """Read by the shipped model; the mean of the parts' log odds."""
+    odds = {}
+    for key, found in descriptions.items():
+        read = [effort_of(found[part], model) for part in parts if part in found]
+        if len(read) == len(parts):
+            values = np.array([[getattr(one, axis) for axis in axes] for one in read])
+            odds[key] = np.arctanh(np.clip(values, -0.999, 0.999)).mean(axis=0)
+    return odds
+
+
+def ordered(odds: Odds) -> Iterator[tuple[int, bool, bool]]:
+    """Yield of each pair which axis differs, whether it is in order, and whether mistaken."""
+    for (name, one), (other_name, other) in combinations(odds, 2):
+        for i in range(2):
+            change = other[i] - one[i]
+            if name != other_name or one[1 - i] != other[1 - i] or abs(change) < LEAST:
+                continue
+            read = odds[name, other] - odds[name, one]
+            yield i, read[i] * change > 0.0, abs(read[1 - i]) > abs(read[i])
 
 
 def main() -> None:
-    """Print the shares of pairs in order and of those mistaken, by axis and part."""
-    order = {(axis, part): [0, 0] for axis in AXES for part in PARTS}
-    mistaken = {(axis, part): 0 for axis in AXES for part in PARTS}
-    for name, read in readings():
-        shown = []
-        for i, axis in enumerate(AXES):
-            right = {part: [0, 0] for part in PARTS}
-            for one, other in combinations(read, 2):
-                change = other[i] - one[i]
-                if one[1 - i] != other[1 - i] or abs(change) < LEAST:
-                    continue
-                for part in PARTS:
-                    before, after = read[one][part], read[other][part]
-                    if before.time is None or after.time is None:  # it is at rest
-                        continue
-                    seen = {a: getattr(after, a) - getattr(before, a) for a in AXES}
-                    order[axis, part][0] += seen[axis] * change > 0.0
-                    order[axis, part][1] += 1
-                    right[part][0] += seen[axis] * change > 0.0
-                    right[part][1] += 1
-                    mistaken[axis, part] += abs(seen[AXES[1 - i]]) > abs(seen[axis])
-            shown += [f"{axis} {part} {100 * r / n:3.0f} %" for part, (r, n) in right.items() if n]
-        print(f"  {name:12} {', '.join(shown)}")
-    for (axis, part), (right_all, count) in order.items():
-        wrong = 100.0 * mistaken[axis, part] / count
-        print(
-            f"{axis:6} {part:6}: {100.0 * right_all / count:5.1f} % of {count} pairs in order, "
-            f"{wrong:.1f} % mistaken for the other axis"
-        )
+    """Print the shares of pairs in order and of those mistaken, by reader, axis and part."""
+    model = load_effort_model()
+    for axes in PAIRS_OF_AXES:
+        descriptions = played_descriptions(axes)
+        for parts in (("hand",), ("pelvis",), PARTS):
+            readers = {
+                "others": read_by_others(descriptions, parts),
+                "shipped": read_as_doodles(descriptions, parts, axes, model),
+            }
+            for reader, read in readers.items():
+                pairs = np.array(list(ordered(read)))
+                for i, axis in enumerate(axes):
+                    right, wrong = 100.0 * pairs[pairs[:, 0] == i, 1:].mean(axis=0)
+                    print(
+                        f"{axis:6} {reader:7} {' and '.join(parts):15}: {right:5.1f} % of "
+                        f"{np.sum(pairs[:, 0] == i)} pairs in order, {wrong:.1f} % mistaken for "
+                        f"{axes[1 - i]}"
+                    )
 
 
 if __name__ == "__main__":

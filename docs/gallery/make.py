@@ -32,7 +32,8 @@ def main() -> None:
     library = smd.load_library()
     draw_stories(library)
     draw_actions(library)
-    draw_efforts(library, "slash")
+    draw_efforts(library, "slash", ("time", "weight"), HERE / "efforts.png")
+    draw_efforts(library, "throw", ("space", "flow"), HERE / "efforts-space-flow.png")
     for picture in [*HERE.glob("*.png"), *(HERE / "actions").glob("*.png")]:
         # 256 colours: a third of the size. Maximum coverage keeps the small patches that tell
         # phrases apart; median cut drops them.
@@ -52,17 +53,17 @@ def draw_actions(library: Library) -> None:
         print(action.name)
 
 
-def draw_efforts(library: Library, action: str) -> None:
-    """Draw an action's clip in its nine states of Time and Weight."""
+def draw_efforts(library: Library, action: str, axes: tuple[str, str], path: Path) -> None:
+    """Draw an action's clip in its nine states of two axes of Effort."""
     body, clip = body_of(library.clip("idle")), library.clip(action)
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         shutil.copy(library.folder / library.character_file, folder)
-        for time, weight in product((-1.0, 0.0, 1.0), repeat=2):
-            effort = Effort(time=time, weight=weight)
-            called = f"time {time:+.0f}, weight {weight:+.0f}"
-            played = expressive(clip, effort, body, travels=library.action(action).travels)
+        for values in product((-1.0, 0.0, 1.0), repeat=2):
+            state = dict(zip(axes, values, strict=True))
+            called = ", ".join(f"{axis} {value:+.0f}" for axis, value in state.items())
+            played = expressive(clip, Effort(**state), body, travels=library.action(action).travels)
             write_clip_file(folder / "clip.usdc", played, library.character_file)
             write_filmstrip(folder / "clip.usdc", folder / "strip.png", rows=1)
             row = Image.open(folder / "strip.png").convert("RGB")
@@ -75,7 +76,7 @@ def draw_efforts(library: Library, action: str) -> None:
     for i, row in enumerate(rows):
         sheet.paste(row, (0, i * row.height))
     size = (ACTION_WIDTH_PX, round(sheet.height * ACTION_WIDTH_PX / sheet.width))
-    sheet.resize(size, Image.Resampling.LANCZOS).save(HERE / "efforts.png")
+    sheet.resize(size, Image.Resampling.LANCZOS).save(path)
 
 
 def draw_stories(library: Library) -> None:

@@ -88,12 +88,12 @@ def body_of(clip: Clip) -> Body:
 
 def _arm(skeleton: Skeleton, plan: LimbPlan) -> Arm | None:
     """Return an arm, or None where its joints are not those of two bones."""
-    chain = plan.upper, plan.middle, plan.end
+    upper, middle, hand = (skeleton.joints[j] for j in (plan.upper, plan.middle, plan.end))
     try:
-        limb = limb_of(skeleton, *(skeleton.joints[j] for j in chain), BEHIND)
+        limb = limb_of(skeleton, upper, middle, hand, BEHIND)
     except CharacterError:
         return None
-    return Arm(*chain, limb)
+    return Arm(plan.upper, plan.middle, plan.end, limb)
 
 
 def _below(plan: BodyPlan, parents: IntArray, joint: int) -> bool:
