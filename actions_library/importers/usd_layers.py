@@ -2,8 +2,9 @@
 
 Composing opens every layer that is referred to, wherever it is, and waits for what never ends; and
 USD's reader of text calls itself once a brace, until the stack is gone and the program with it.
-So each layer is looked at first: it is a plain file in the folder of the first one, or in its
-archive, it is not too large and not nested too deeply.
+So each layer is looked at first: it is a plain file in the asset's folder, or in its archive, it
+is not too large and not nested too deeply. The asset's folder is the one above the first file's,
+for assets keep clips, geometry and materials in folders of their own side by side.
 """
 
 from __future__ import annotations
@@ -21,14 +22,14 @@ _MOST_LAYERS = 256
 
 
 def check_layers(path: Path) -> None:
-    """Refuse a USD file that leads out of its folder, is too large or too deep.
+    """Refuse a USD file that leads out of its asset's folder, is too large or too deep.
 
     Raises
     ------
     ImportedFileError
         For the first layer at fault.
     """
-    folder = path.parent.resolve()
+    folder = _asset_folder(path)
     pending = [path.resolve()]
     seen: set[Path] = set()
     size = 0
@@ -38,7 +39,7 @@ def check_layers(path: Path) -> None:
             continue
         seen.add(file)
         if not file.is_relative_to(folder):
-            raise fault(path, "layers", "files in the same folder", repr(str(file))[:120])
+            raise fault(path, "layers", "files of the same asset", repr(str(file))[:120])
         if not file.exists():  # USD goes on without it
             continue
         if not file.is_file():
@@ -50,24 +51,31 @@ def check_layers(path: Path) -> None:
 
 
 def check_used(path: Path, stage: Usd.Stage) -> None:
-    """Refuse a stage that came to use layers of another folder after all, or may do so later.
+    """Refuse a stage that came to use layers from elsewhere after all, or may do so later.
 
     Raises
     ------
     ImportedFileError
         For the first such layer, or prim with value clips.
     """
-    folder = path.parent.resolve()
+    folder = _asset_folder(path)
     for layer in stage.GetUsedLayers():
         if layer.realPath and not layer.anonymous:
             file = layer.realPath
             if Ar.IsPackageRelativePath(file):
                 file = Ar.SplitPackageRelativePathOuter(file)[0]
             if not Path(file).resolve().is_relative_to(folder):
-                raise fault(path, "layers", "files in the same folder", repr(file)[:120])
+                raise fault(path, "layers", "files of the same asset", repr(file)[:120])
     for prim in stage.TraverseAll():
         if prim.HasAuthoredMetadata("clips"):
             raise fault(path, str(prim.GetPath()), "no value clips", "some")
+
+
+def _asset_folder(path: Path) -> Path:
+    """Return the folder that an asset's layers lie in: never the root of everything."""
+    folder = path.resolve().parent
+    above = folder.parent
+    return folder if above == above.parent else above
 
 
 def _led_to(path: Path, file: Path) -> list[Path]:

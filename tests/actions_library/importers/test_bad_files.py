@@ -286,18 +286,18 @@ def test_a_skeleton_that_is_not_there(tmp_path):
 
 @pytest.mark.parametrize("kind", ["above", "absolute", "link", "pipe", "expression"])
 @pytest.mark.parametrize("manner", ["subLayers", "references", "payload"])
-def test_a_usd_does_not_lead_out_of_its_folder(tmp_path, kind, manner):
+def test_a_usd_does_not_lead_out_of_its_asset(tmp_path, kind, manner):
     (tmp_path / "secret.usda").write_text(USD_ARM)
-    inside = tmp_path / "inside"
-    inside.mkdir()
+    inside = tmp_path / "asset" / "clips"
+    inside.mkdir(parents=True)
     (inside / "link.usda").symlink_to(tmp_path / "secret.usda")
     os.mkfifo(inside / "pipe.usda")
     name = {
-        "above": "../secret.usda",
+        "above": "../../secret.usda",
         "absolute": str(tmp_path / "secret.usda"),
         "link": "./link.usda",
         "pipe": "./pipe.usda",
-        "expression": '`"../${X}.usda"`',
+        "expression": '`"../../${X}.usda"`',
     }[kind]
     variable = 'expressionVariables = { string X = "secret" }'
     if manner == "subLayers":

@@ -197,7 +197,11 @@ def test_blend_shapes_alone_are_an_animation(shared_data):
     assert np.ptp(imported.animations[0].shape_weights) > 0.0
 
 
-def test_a_layer_in_the_same_folder_is_composed(tmp_path):
-    written(tmp_path)
-    path = written(tmp_path, "#usda 1.0\n(\n    subLayers = [@./a.usda@]\n)\n", "b.usda")
+@pytest.mark.parametrize("name", ["./a.usda", "../a.usda", "../meshes/a.usda"])
+def test_a_layer_of_the_same_asset_is_composed(tmp_path, name):
+    clips = tmp_path / "clips"
+    for folder in (clips, tmp_path / "meshes"):
+        folder.mkdir()
+    written((clips / name).parent.resolve())
+    path = written(clips, f"#usda 1.0\n(\n    subLayers = [@{name}@]\n)\n", "b.usda")
     assert len(import_file(path).skeleton) == 2
