@@ -34,6 +34,7 @@ from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
 from smd.transfer.body import body_of
 from smd.transfer.expression import expressive
+from smd.transfer.study import study_of
 
 VALUES = (-1.0, -0.5, 0.0, 0.5, 1.0)
 LEAST = 0.5
@@ -74,10 +75,10 @@ def played_descriptions(axes: tuple[str, str]) -> Descriptions:
         neutral = library.clip(action.name)
         if neutral.cyclic:
             continue
-        joints = joints_of(neutral)
+        joints, study = joints_of(neutral), study_of(neutral, body)
         for state in product(VALUES, VALUES):
             effort = Effort(**dict(zip(axes, state, strict=True)))
-            clip = expressive(neutral, effort, body, travels=action.travels)
+            clip = expressive(study, effort, travels=action.travels)
             motions = {part: smooth(prop_of(clip, joint)) for part, joint in joints.items()}
             found[action.name, state] = {
                 part: describe(motion) for part, motion in motions.items() if is_readable(motion)

@@ -18,6 +18,7 @@ from exporters.timeline import write_timeline
 from laban import Effort
 from smd.transfer.body import body_of
 from smd.transfer.expression import expressive
+from smd.transfer.study import study_of
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE.parents[1] / "recordings"
@@ -55,7 +56,7 @@ def draw_actions(library: Library) -> None:
 
 def draw_efforts(library: Library, action: str, axes: tuple[str, str], path: Path) -> None:
     """Draw an action's clip in its nine states of two axes of Effort."""
-    body, clip = body_of(library.clip("idle")), library.clip(action)
+    study = study_of(library.clip(action), body_of(library.clip("idle")))
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -63,7 +64,7 @@ def draw_efforts(library: Library, action: str, axes: tuple[str, str], path: Pat
         for values in product((-1.0, 0.0, 1.0), repeat=2):
             state = dict(zip(axes, values, strict=True))
             called = ", ".join(f"{axis} {value:+.0f}" for axis, value in state.items())
-            played = expressive(clip, Effort(**state), body, travels=library.action(action).travels)
+            played = expressive(study, Effort(**state), travels=library.action(action).travels)
             write_clip_file(folder / "clip.usdc", played, library.character_file)
             write_filmstrip(folder / "clip.usdc", folder / "strip.png", rows=1)
             row = Image.open(folder / "strip.png").convert("RGB")

@@ -55,7 +55,7 @@ class Clip:
         n = len(rotation)
         if n < 2:
             raise CharacterError(f"clip {self.name!r}: expected at least 2 frames, got {n}")
-        length = np.linalg.norm(rotation, axis=-1, keepdims=True)
+        length = np.sqrt(np.einsum("nji,nji->nj", rotation, rotation))
         if np.abs(length - 1.0).max() > 1e-3:
             raise CharacterError(f"clip {self.name!r}: rotation_xyzw: expected unit length")
         translation = frozen_array("translation_m", self.translation_m, (n, j, 3), CharacterError)
@@ -76,7 +76,10 @@ class Clip:
             self,
             "rotation_xyzw",
             frozen_array(
-                "rotation_xyzw", sign_continuous(rotation / length), (n, j, 4), CharacterError
+                "rotation_xyzw",
+                sign_continuous(rotation / length[..., None]),
+                (n, j, 4),
+                CharacterError,
             ),
         )
         object.__setattr__(self, "translation_m", translation)

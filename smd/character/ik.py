@@ -68,6 +68,29 @@ class Limb:
         a, b = self.upper_length_m, self.lower_length_m
         return np.sqrt(a * a + b * b + 2.0 * a * b * np.cos(np.asarray(bend_rad, dtype=np.float64)))
 
+    def reachable_m(self, distance_m: ArrayLike, softness: float = 0.0) -> FloatArray:
+        """Return the distance from the upper joint to the end that is taken for a wanted one.
+
+        Parameters
+        ----------
+        softness
+            Last fraction of the reach in which the limb straightens ever more slowly.
+        """
+        nearest = abs(self.upper_length_m - self.lower_length_m) + _PARALLEL
+        zone = self.reach_m * softness
+        wanted = np.maximum(np.asarray(distance_m, dtype=np.float64), nearest)
+        if zone == 0.0:
+            return np.minimum(wanted, self.reach_m)
+        hard = self.reach_m - zone
+        beyond = np.maximum(wanted - hard, 0.0)
+        return np.where(beyond > 0, hard + zone * (1.0 - np.exp(-beyond / zone)), wanted)
+
+    def bend_rad(self, span_m: ArrayLike) -> FloatArray:
+        """Return how far the limb is bent, 0 when straight, for a distance it can take."""
+        a, b = self.upper_length_m, self.lower_length_m
+        span = np.asarray(span_m, dtype=np.float64)
+        return np.arccos(np.clip((span * span - a * a - b * b) / (2.0 * a * b), -1.0, 1.0))
+
 
 def limb_of(skeleton: Skeleton, upper: str, middle: str, end: str, rest_pole: ArrayLike) -> Limb:
     """Return the limb of three joints, of which each is the parent of the next.
@@ -135,7 +158,7 @@ def two_bone_ik(
     )
     distance = np.linalg.norm(target - base, axis=-1)
     toward = np.where(distance[..., None] > _PARALLEL, normalized(target - base), [0.0, -1.0, 0.0])
-    span = _reachable(limb, distance, softness)
+    span = limb.reachable_m(distance, softness)
     across = _across(toward, pole)
 
     a, b = limb.upper_length_m, limb.lower_length_m
@@ -147,18 +170,6 @@ def two_bone_ik(
         _turn(limb.upper_bone_m, limb.upper_hinge, upper, hinge),
         _turn(limb.lower_bone_m, limb.lower_hinge, lower, hinge),
     )
-
-
-def _reachable(limb: Limb, distance: FloatArray, softness: float) -> FloatArray:
-    """Return the distance from base to end that the limb takes for a wanted one."""
-    nearest = abs(limb.upper_length_m - limb.lower_length_m) + _PARALLEL
-    zone = limb.reach_m * softness
-    wanted = np.maximum(distance, nearest)
-    if zone == 0.0:
-        return np.minimum(wanted, limb.reach_m)
-    hard = limb.reach_m - zone
-    beyond = np.maximum(wanted - hard, 0.0)
-    return np.where(beyond > 0, hard + zone * (1.0 - np.exp(-beyond / zone)), wanted)
 
 
 def _across(toward: FloatArray, pole: FloatArray) -> FloatArray:

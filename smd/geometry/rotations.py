@@ -18,7 +18,10 @@ IDENTITY_XYZW.flags.writeable = False
 def normalized(vector: ArrayLike) -> FloatArray:
     """Return vectors scaled to unit length along the last axis; zero stays zero."""
     vector = np.asarray(vector, dtype=np.float64)
-    length = np.linalg.norm(vector, axis=-1, keepdims=True)
+    # einsum, since np.linalg.norm takes three times as long on short vectors.
+    length = np.sqrt(np.einsum("...i,...i->...", vector, vector))[..., None]
+    if (length > 0).all():
+        return vector / length
     return np.divide(vector, length, out=np.zeros_like(vector), where=length > 0)
 
 
@@ -93,9 +96,9 @@ def quaternion_between(start: ArrayLike, end: ArrayLike) -> FloatArray:
 def sign_continuous(q_xyzw: ArrayLike) -> FloatArray:
     """Flip signs along the first axis so that neighbours lie in one hemisphere."""
     q = np.array(q_xyzw, dtype=np.float64)
-    dots = np.sum(q[1:] * q[:-1], axis=-1)
-    signs = np.cumprod(np.where(dots < 0, -1.0, 1.0), axis=0)
-    q[1:] *= signs[..., None]
+    apart = np.einsum("...i,...i->...", q[1:], q[:-1]) < 0
+    if apart.any():
+        q[1:] *= np.cumprod(np.where(apart, -1.0, 1.0), axis=0)[..., None]
     return q
 
 

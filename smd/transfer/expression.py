@@ -24,9 +24,10 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 from smd.transfer.body import Body
 from smd.transfer.easing import smootherstep
-from smd.transfer.operators import rescaled, reshaped, retimed
+from smd.transfer.operators import at_frames, rescaled, reshaped, retimed, retimed_ends
 from smd.transfer.reaching import with_hands_kept
 from smd.transfer.springs import damped, settled, sprung
+from smd.transfer.study import Study
 from smd.transfer.timing import (
     ALPHA,
     EVENED,
@@ -58,7 +59,7 @@ EDGE = 0.15
 the pose that idling has."""
 
 
-def expressive(clip: Clip, effort: Effort, body: Body, *, travels: bool) -> Clip:
+def expressive(study: Study, effort: Effort, *, travels: bool) -> Clip:
     """Return a clip as it is played with Effort; at Effort 0, or where none was read, the same.
 
     Timing comes first: Time, then Weight, which goes by the speeds that then are to be seen, then
@@ -68,47 +69,48 @@ def expressive(clip: Clip, effort: Effort, body: Body, *, travels: bool) -> Clip
 
     Parameters
     ----------
-    clip
-        Neutral.
+    study
+        `study_of` the neutral clip.
     effort
         What is to be seen; an axis that is None is not played.
-    body
-        `body_of` the clip.
     travels
         Whether its action does: a gait goes by the doodle's pace, and has no timing of its own.
     """
     time, weight = effort.time or 0.0, effort.weight or 0.0
     space, flow = effort.space or 0.0, effort.flow or 0.0
+    clip, body = study.clip, study.body
+    hands, bearing = study.hands_m, study.bearing
     if not (time or weight or space or flow):
         return clip
-    neutral = clip
     if not clip.cyclic:
-        source_frame = effort_timing(clip, time, weight, flow)
-        neutral = retimed(clip, source_frame)
+        source_frame = effort_timing(study, time, weight, flow)
+        hands, bearing = (at_frames(value, source_frame) for value in (hands, bearing))
         if time > 0.0:
             clip = with_small_beginning(clip, time, body)
         clip = retimed(clip, source_frame)
     if space:
-        clip = with_space(clip, space, body)
+        clip = with_space(clip, space, body, bearing)
     if weight:
         clip = with_weight(clip, weight, body, gait=travels and clip.cyclic)
     if flow:
         clip = with_flow(clip, flow, body)
     if weight:
         clip = with_shape(clip, weight, body)
-    return with_hands_kept(clip, body, neutral)
+    return with_hands_kept(clip, body.arms, hands, bearing)
 
 
-def effort_timing(clip: Clip, time: float, weight: float, flow: float) -> FloatArray:
+def effort_timing(study: Study, time: float, weight: float, flow: float) -> FloatArray:
     """Return which frame of a clip to show at each of its own, ``(n,)``."""
+    clip = study.clip
     frame = np.arange(len(clip), dtype=np.float64)
     source_frame = time_timing(clip, time) if time else frame
     for power in (EVENED * min(time, 0.0), ALPHA * SOFTENED * weight):
         if power:
-            pace = pace_timing(retimed(clip, source_frame), power)
-            source_frame = np.interp(pace, frame, source_frame)
+            way_m = np.interp(source_frame, frame, study.way_m)
+            source_frame = np.interp(pace_timing(way_m, power), frame, source_frame)
     if flow > 0.0:
-        held = held_timing(retimed(clip, source_frame), flow)
+        ends = retimed_ends(clip.stage_end_frames, source_frame)
+        held = held_timing(ends, clip.rate_hz, flow)
         source_frame = np.interp(held, frame, source_frame)
     busy = busy_share(time)
     return after_waiting(within_pace(source_frame, FASTEST * busy), busy)
@@ -158,9 +160,9 @@ def middle_frame(clip: Clip) -> int:
     return int(np.argmax(near))
 
 
-def with_space(clip: Clip, space: float, body: Body) -> Clip:
+def with_space(clip: Clip, space: float, body: Body, bearing: FloatArray) -> Clip:
     """Return a clip whose hands and head go straight, or in arcs with a wandering gaze."""
-    clip = with_hands_redrawn(clip, body, space)
+    clip = with_hands_redrawn(clip, body, space, bearing)
     n = len(clip)
     share = np.ones(n) if clip.cyclic else settled(n, EDGE)
     looking = [joint for joint in (body.neck, body.head) if joint is not None]

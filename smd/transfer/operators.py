@@ -16,15 +16,14 @@ from dataclasses import replace
 import numpy as np
 
 from smd.character.clip import Clip
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import (
-    IDENTITY_XYZW,
     inverse,
     multiply,
     normalized,
-    quaternion_about,
+    quaternion_from_rotvec,
     rotate,
-    slerp,
+    rotvec_from_quaternion,
 )
 
 SOFT = 0.1
@@ -41,23 +40,32 @@ def retimed(clip: Clip, source_frame: FloatArray) -> Clip:
     source_frame
         ``(n,)`` not decreasing, from 0 to n - 1; fractional frames lie between two.
     """
-    last = len(clip) - 1
-    left = np.minimum(source_frame.astype(np.int64), last - 1)
-    share = (source_frame - left)[:, None, None]
-    a, b = clip.rotation_xyzw[left], clip.rotation_xyzw[left + 1]
-    rotation = normalized(a + share * (b - a))
-    a, b = clip.translation_m[left], clip.translation_m[left + 1]
-    translation = a + share * (b - a)
-    ends = np.minimum(np.searchsorted(source_frame, clip.stage_end_frames - 1e-6), last)
-    ends[-1] = last  # a clip that has ended stands on
+    rotation = normalized(at_frames(clip.rotation_xyzw, source_frame))
+    translation = at_frames(clip.translation_m, source_frame)
     nearest = np.round(source_frame).astype(np.int64)
     return replace(
         clip,
         rotation_xyzw=rotation,
         translation_m=translation,
-        stage_end_frames=ends,
+        stage_end_frames=retimed_ends(clip.stage_end_frames, source_frame),
         contacts=clip.contacts[nearest],
     )
+
+
+def at_frames(value: FloatArray, frame: FloatArray) -> FloatArray:
+    """Return values ``(n, …)``, one a frame, at fractional frames ``(m,)`` from 0 to n - 1."""
+    left = np.minimum(frame.astype(np.int64), len(value) - 2)
+    share = (frame - left).reshape(-1, *(1,) * (value.ndim - 1))
+    before = value[left]
+    return before + share * (value[left + 1] - before)
+
+
+def retimed_ends(stage_end_frames: IntArray, source_frame: FloatArray) -> IntArray:
+    """Return the frames ``(5,)`` at which stages end once a clip is retimed."""
+    last = len(source_frame) - 1
+    ends = np.minimum(np.searchsorted(source_frame, stage_end_frames - 1e-6), last)
+    ends[-1] = last  # a clip that has ended stands on
+    return ends
 
 
 def stage_timing(clip: Clip, lasting: Sequence[float], power: Sequence[float]) -> FloatArray:
@@ -108,10 +116,9 @@ def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) 
     rotation, translation = clip.rotation_xyzw.copy(), clip.translation_m.copy()
     first = rotation[about, at]
     own = rotation[:, at]
-    from_first = multiply(own, inverse(first))
-    none = np.broadcast_to(IDENTITY_XYZW, from_first.shape)
-    share = np.broadcast_to(factor[:, None], from_first.shape[:-1])
-    rotation[:, at] = multiply(slerp(none, from_first, share), first)
+    from_first = rotvec_from_quaternion(multiply(own, inverse(first)))
+    scaled = quaternion_from_rotvec(factor[:, None, None] * from_first)
+    rotation[:, at] = multiply(scaled, first)
     place = translation[about, at]
     translation[:, at] = place + factor[:, None, None] * (translation[:, at] - place)
     return replace(clip, rotation_xyzw=rotation, translation_m=translation)
@@ -130,8 +137,10 @@ def reshaped(clip: Clip, bend_rad: Mapping[int, FloatArray], rest_xyzw: FloatArr
     rest_xyzw
         ``(j, 4)`` how each joint is turned in the world at rest.
     """
+    joints = list(bend_rad)
+    left = rotate(inverse(rest_xyzw[joints]), np.array([1.0, 0.0, 0.0]))
+    angle = np.stack([bend_rad[joint] for joint in joints], axis=-1)
+    bend = quaternion_from_rotvec(angle[..., None] * left)
     rotation = clip.rotation_xyzw.copy()
-    for joint, angle in bend_rad.items():
-        axis = rotate(inverse(rest_xyzw[joint]), np.array([1.0, 0.0, 0.0]))
-        rotation[:, joint] = multiply(rotation[:, joint], quaternion_about(axis, angle))
+    rotation[:, joints] = multiply(rotation[:, joints], bend)
     return replace(clip, rotation_xyzw=rotation)

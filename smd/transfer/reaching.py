@@ -2,37 +2,66 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from smd.character.clip import Clip
-from smd.character.ik import two_bone_ik
-from smd.character.kinematics import forward_kinematics
+from smd.character.kinematics import joints_in_world
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import inverse, multiply, rotate, sign_continuous
-from smd.transfer.body import Arm, Body
+from smd.geometry.rotations import (
+    inverse,
+    multiply,
+    normalized,
+    quaternion_between,
+    quaternion_from_rotvec,
+    rotate,
+)
+from smd.transfer.body import Arm
 from smd.transfer.easing import smootherstep
-from smd.transfer.legs import world_of
 
 SOFTNESS = 0.03
 """Last share of an arm's reach in which it straightens ever more slowly."""
+
+STRAIGHT = 0.02
+"""Sine of the bend about which an arm's hinge, and no longer the bend itself, says its axis."""
 
 TOUCHING_M, FREE_M = 0.06, 0.22
 """Height of a wrist below which its hand rests on the ground, and above which it does not."""
 
 
-class World(NamedTuple):
-    """A clip's poses in the world: rotations ``(n, j, 4)`` and places ``(n, j, 3)``."""
+class ArmPose(NamedTuple):
+    """An arm in the world, a frame each.
 
-    rotation_xyzw: FloatArray
-    position_m: FloatArray
+    Attributes
+    ----------
+    above_xyzw, upper_xyzw, middle_xyzw : (n, 4) how what it hangs from, shoulder and elbow are
+        turned.
+    shoulder_m, elbow_m, hand_m : (n, 3).
+    """
+
+    above_xyzw: FloatArray
+    upper_xyzw: FloatArray
+    middle_xyzw: FloatArray
+    shoulder_m: FloatArray
+    elbow_m: FloatArray
+    hand_m: FloatArray
 
 
-def world_of_clip(clip: Clip) -> World:
-    """Return a clip's poses in its own world."""
-    return World(*forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m))
+def arm_poses(clip: Clip, arms: Sequence[Arm]) -> list[ArmPose]:
+    """Return arms in the clip's own world."""
+    joints = [
+        joint
+        for arm in arms
+        for joint in (int(clip.skeleton.parents[arm.upper]), arm.upper, arm.middle, arm.hand)
+    ]
+    q, p = joints_in_world(clip.skeleton, joints, clip.rotation_xyzw, clip.translation_m)
+    return [
+        ArmPose(q[:, i], q[:, i + 1], q[:, i + 2], p[:, i + 1], p[:, i + 2], p[:, i + 3])
+        for i in range(0, len(joints), 4)
+    ]
 
 
 def bearing(height_m: FloatArray) -> FloatArray:
@@ -40,44 +69,58 @@ def bearing(height_m: FloatArray) -> FloatArray:
     return 1.0 - smootherstep((height_m - TOUCHING_M) / (FREE_M - TOUCHING_M))
 
 
-def with_hand_moved(clip: Clip, arm: Arm, offset_m: FloatArray, world: World) -> Clip:
+def with_hand_moved(clip: Clip, arm: Arm, pose: ArmPose, offset_m: FloatArray) -> Clip:
     """Return a clip whose hand is elsewhere by ``offset_m (n, 3)`` in the world.
 
-    The arm is turned by what lies between the inverse kinematics of both places, so that nothing
-    changes where there is no offset, whatever way a rig's bones are twisted. The elbow keeps the
-    plane it bends in; beyond its reach the arm points at the place.
-    """
-    q, place = world
-    base, end = place[:, arm.upper], place[:, arm.hand]
-    hinge = rotate(q[:, arm.upper], arm.limb.upper_hinge)
-    elbow = np.cross(end - base, hinge)
-    before = two_bone_ik(arm.limb, base, end, elbow, softness=SOFTNESS)
-    after = two_bone_ik(arm.limb, base, end + offset_m, elbow, softness=SOFTNESS)
-    upper, middle = (
-        multiply(multiply(b, inverse(a)), q[:, joint])
-        for a, b, joint in zip(before, after, (arm.upper, arm.middle), strict=True)
-    )
-    rotation = clip.rotation_xyzw.copy()
-    above = int(clip.skeleton.parents[arm.upper])
-    rotation[:, arm.upper] = multiply(inverse(q[:, above]), upper)
-    rotation[:, arm.middle] = multiply(inverse(upper), middle)
-    return replace(clip, rotation_xyzw=sign_continuous(rotation))
-
-
-def with_hands_kept(clip: Clip, body: Body, neutral: Clip) -> Clip:
-    """Return a clip whose hands rest on the ground where those of another clip do.
+    The elbow bends as the new distance needs it by the law of cosines, in the plane in which it
+    is bent; then the whole arm swings to where the hand should be. So nothing changes where there
+    is no offset, whatever way a rig's bones are twisted. Beyond its reach the arm points at the
+    place.
 
     Parameters
     ----------
-    neutral
-        Of as many frames: at each the moment that the clip shows there, as it was authored.
+    pose
+        The arm's own in this clip.
     """
-    world = None
-    for arm in body.arms:
-        _, wanted = world_of(clip.skeleton, arm.hand, neutral.rotation_xyzw, neutral.translation_m)
-        rests = bearing(wanted[:, 1])
-        if rests.any():
-            world = world or world_of_clip(clip)
-            gap = wanted - world.position_m[:, arm.hand]
-            clip = with_hand_moved(clip, arm, rests[:, None] * gap, world)
+    have = pose.hand_m - pose.shoulder_m
+    want = have + offset_m
+    span = arm.limb.reachable_m(np.linalg.norm([have, want], axis=-1), SOFTNESS)
+    bent, bends = arm.limb.bend_rad(span)
+    upper_m, lower_m = pose.elbow_m - pose.shoulder_m, pose.hand_m - pose.elbow_m
+    axis = _bending_axis(rotate(pose.upper_xyzw, arm.limb.upper_hinge), upper_m, lower_m)
+    bend = quaternion_from_rotvec(axis * (bends - bent)[:, None])
+    swing = quaternion_between(upper_m + rotate(bend, lower_m), want)
+    upper = multiply(swing, pose.upper_xyzw)
+    middle = multiply(multiply(swing, bend), pose.middle_xyzw)
+    rotation = clip.rotation_xyzw.copy()
+    rotation[:, arm.upper] = multiply(inverse(pose.above_xyzw), upper)
+    rotation[:, arm.middle] = multiply(inverse(upper), middle)
+    return replace(clip, rotation_xyzw=rotation)
+
+
+def _bending_axis(hinge: FloatArray, upper_m: FloatArray, lower_m: FloatArray) -> FloatArray:
+    """Return the unit axis about which an arm is bent: the hinge where it is straight."""
+    across = np.cross(normalized(upper_m), normalized(lower_m))
+    toward = np.sign(np.sum(across * hinge, axis=-1, keepdims=True))
+    return normalized(toward * across + STRAIGHT * hinge)
+
+
+def with_hands_kept(
+    clip: Clip, arms: Sequence[Arm], hands_m: FloatArray, bearing: FloatArray
+) -> Clip:
+    """Return a clip whose hands rest on the ground where they should.
+
+    Parameters
+    ----------
+    hands_m
+        ``(n, a, 3)`` where each arm's hand should be while it rests.
+    bearing
+        ``(n, a)`` how surely it does.
+    """
+    if not bearing.any():
+        return clip
+    for i, (arm, pose) in enumerate(zip(arms, arm_poses(clip, arms), strict=True)):
+        if bearing[:, i].any():
+            gap = hands_m[:, i] - pose.hand_m
+            clip = with_hand_moved(clip, arm, pose, bearing[:, i, None] * gap)
     return clip

@@ -10,14 +10,16 @@ import numpy as np
 from actions_library.library import IDLE, Library
 from laban import Effort
 from smd.character.clip import Clip
+from smd.character.kinematics import joints_in_world
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
 from smd.transfer.body import body_of
 from smd.transfer.expression import expressive
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
-from smd.transfer.legs import Leg, feet_of, legs_of, world_of, yaw_of
+from smd.transfer.legs import Leg, feet_of, legs_of, yaw_of
 from smd.transfer.standing import standing
+from smd.transfer.study import Study, study_of
 
 SAME_POSE = 0.999
 """Cosine of half the angle up to which all joints of two poses are turned alike: 5 degrees."""
@@ -135,16 +137,15 @@ def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: f
         for name, clip in zip(names, clips, strict=True)
     }
     body = body_of(clips[0])
+    studies: dict[str, Study] = {}
     for phrase in phrases:
         name = piece_name(phrase.action, phrase.effort, expressiveness)
         if name not in pieces:
             neutral = pieces[phrase.action]
-            clip = expressive(
-                neutral.clip,
-                played_effort(phrase.effort, expressiveness),
-                body,
-                travels=neutral.travels,
-            )
+            if phrase.action not in studies:
+                studies[phrase.action] = study_of(neutral.clip, body)
+            effort = played_effort(phrase.effort, expressiveness)
+            clip = expressive(studies[phrase.action], effort, travels=neutral.travels)
             feet = tuple(neutral.stands)
             pieces[name] = piece_of(clip, travels=neutral.travels, legs=legs, feet=feet)
     return Repertoire(pieces, legs, rests, leaving, expressiveness)
@@ -169,10 +170,7 @@ def piece_of(
     """Study one clip; ``feet`` are those that touch in it, where they are known."""
     stands = standing(clip, legs, feet)
     gait = gait_of(clip, stands) if travels and clip.cyclic else None
-    yaw = {
-        leg.foot: yaw_of(
-            leg, world_of(clip.skeleton, leg.foot, clip.rotation_xyzw, clip.translation_m)[0]
-        )
-        for leg in legs
-    }
+    local = clip.rotation_xyzw, clip.translation_m
+    foot_q, _ = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+    yaw = {leg.foot: yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)}
     return Piece(clip, travels, ground_root(clip), stands, yaw, gait)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -20,6 +19,9 @@ SPRING_HZ, SOFTER = 4.0, 0.85
 DAMPING = 0.4
 """Of these springs: they swing over by 1/4, back by 1/16. A hinge is critically damped (1): an
 elbow that swings through is broken."""
+
+DIED_AWAY = 12.0
+"""Time constants after which a spring is still: 6 millionths are left."""
 
 DAMPED_S = 0.07
 """Smoothing of what is bound."""
@@ -39,10 +41,9 @@ def sprung(clip: Clip, joints: Sequence[int], body: Body, share: FloatArray) -> 
     damping = np.array([1.0 if joint in body.hinges else DAMPING for joint in at])
     rotation = clip.rotation_xyzw.copy()
     own = rotation[:, at]
-    laps = sign_continuous(np.concatenate([own[:-1], own[:-1], own])) if clip.cyclic else own
-    swung = _swung(laps, omega[:, None], damping[:, None])[-len(own) :]
+    swung = _swung(_laps(own) if clip.cyclic else own, omega, damping)[-len(own) :]
     rotation[:, at] = _mixed(own, swung, share[:, None])
-    return replace(clip, rotation_xyzw=sign_continuous(rotation))
+    return replace(clip, rotation_xyzw=rotation)
 
 
 def damped(clip: Clip, joints: Sequence[int], share: FloatArray) -> Clip:
@@ -51,31 +52,31 @@ def damped(clip: Clip, joints: Sequence[int], share: FloatArray) -> Clip:
     own = rotation[:, list(joints)]
     if clip.cyclic:
         n = len(own) - 1
-        laps = sign_continuous(np.concatenate([own[:-1], own[:-1], own]))
-        even = gaussian_smoothed(laps, DAMPED_S * clip.rate_hz)[n : 2 * n + 1]
+        even = gaussian_smoothed(_laps(own), DAMPED_S * clip.rate_hz)[n : 2 * n + 1]
     else:
         even = gaussian_smoothed(own, DAMPED_S * clip.rate_hz)
     rotation[:, list(joints)] = _mixed(own, even, share[:, None])
-    return replace(clip, rotation_xyzw=sign_continuous(rotation))
+    return replace(clip, rotation_xyzw=rotation)
+
+
+def _laps(own: FloatArray) -> FloatArray:
+    """Return a cycle three times over, its first frame being its last one again."""
+    return sign_continuous(np.concatenate([own[:-1], own[:-1], own]))
 
 
 def _swung(wanted: FloatArray, omega: FloatArray, damping: FloatArray) -> FloatArray:
-    """Return how springs follow values ``(n, j, 4)``; ``omega`` is in radians a frame.
+    """Return how springs follow values ``(n, j, 4)`` from rest; ``omega`` is in radians a frame.
 
     x'' = omega^2 (wanted - x) - 2 damping omega x', by the trapezoidal rule: stable for any omega.
+    It is solved in frequencies, and what swings on beyond the end is let die away.
     """
     half = 0.5 * omega
-    ahead = 1.0 / (1.0 + 2.0 * damping * half + half * half)
-    at, speed = wanted[0].copy(), np.zeros_like(wanted[0])
-    swung = np.empty_like(wanted)
-    swung[0] = at
-    for i, (before, after) in enumerate(pairwise(wanted), start=1):
-        pull = omega * omega * (0.5 * (before + after) - at - 0.5 * speed)
-        faster = ahead * (pull - 2.0 * damping * omega * speed)
-        at = at + speed + 0.5 * faster
-        speed = speed + faster
-        swung[i] = at
-    return swung
+    size = len(wanted) + int(np.ceil(DIED_AWAY / (omega * damping).min()))
+    late = np.exp(-2j * np.pi * np.arange(size // 2 + 1) / size)[:, None]  # by one frame
+    pull = (half * (1.0 + late)) ** 2
+    response = pull / ((1.0 - late) ** 2 + 2.0 * damping * half * (1.0 - late**2) + pull)
+    moved = np.fft.rfft(wanted - wanted[:1], size, axis=0) * response[..., None]
+    return wanted[:1] + np.fft.irfft(moved, size, axis=0)[: len(wanted)]
 
 
 def _mixed(own: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:

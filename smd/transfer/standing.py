@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from smd.character.clip import Clip
-from smd.geometry.arrays import BoolArray
+from smd.character.kinematics import joints_in_world
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import rotate
-from smd.transfer.legs import Leg, feet_of, world_of
+from smd.transfer.legs import Leg, feet_of
 
 TOUCHING_M = 0.005
 """Height up to which a point of the sole touches the ground."""
@@ -35,15 +36,16 @@ def standing(
             foot = int(clip.skeleton.parents[foot])
         if foot >= 0:  # no foot: a hand
             labelled[foot] |= touches
-    for leg in legs:
-        if leg.foot in labelled and labelled[leg.foot].any():
-            labelled[leg.foot] |= _rests(clip, leg)
+    legs = [leg for leg in legs if leg.foot in labelled and labelled[leg.foot].any()]
+    local = clip.rotation_xyzw, clip.translation_m
+    foot_q, ankle = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+    for i, leg in enumerate(legs):
+        labelled[leg.foot] |= _rests(clip, leg, foot_q[:, i], ankle[:, i])
     return labelled
 
 
-def _rests(clip: Clip, leg: Leg) -> BoolArray:
+def _rests(clip: Clip, leg: Leg, foot_q: FloatArray, ankle: FloatArray) -> BoolArray:
     """Return when the heel or the ball of a foot rests on the ground, in the clip's own world."""
-    foot_q, ankle = world_of(clip.skeleton, leg.foot, clip.rotation_xyzw, clip.translation_m)
     rests = np.zeros(len(clip), dtype=bool)
     for point_m, height_m in ((leg.heel_m, 0.0), (leg.ball_m, leg.ball_height_m)):
         place = ankle + rotate(foot_q, point_m)

@@ -13,8 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from smd.character.clip import Clip
-from smd.character.kinematics import forward_kinematics
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.transfer.easing import smootherstep
 from smd.transfer.operators import stage_timing
 
@@ -61,34 +60,38 @@ def time_timing(clip: Clip, time: float) -> FloatArray:
     return stage_timing(clip, lasting, power)
 
 
-def pace_timing(clip: Clip, power: float) -> FloatArray:
+def pace_timing(way_m: FloatArray, power: float) -> FloatArray:
     """Return the timing in which the body's speed is its own, to 1 plus a power.
 
     Above 0, what is fast is played faster still and what is slow slower (the paper's strong
-    Weight, 6.4.2); below 0 the pace is evened. The speed is the joints' mean, 1 where it is the
-    clip's own mean.
+    Weight, 6.4.2); below 0 the pace is evened.
+
+    Parameters
+    ----------
+    way_m
+        ``(n,)`` how far the joints have gone by each frame, on average; a speed is 1 where it is
+        the mean one.
     """
-    _, place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
-    steps = np.linalg.norm(np.diff(place - place[:, :1], axis=0), axis=-1).mean(axis=-1)
+    frame = np.arange(len(way_m), dtype=np.float64)
+    steps = np.diff(way_m)
     mean = float(steps.mean())
     if mean < 1e-9:
-        return np.arange(len(clip), dtype=np.float64)
+        return frame
     pace = np.clip(steps / mean, 0.05, None) ** power
     pace = np.clip(pace, SLOWEST, FASTEST)
     played = np.concatenate([[0.0], np.cumsum(1.0 / pace)])
-    last = len(clip) - 1
-    return np.interp(np.arange(last + 1), played * (last / played[-1]), np.arange(last + 1))
+    return np.interp(frame, played * (frame[-1] / played[-1]), frame)
 
 
-def held_timing(clip: Clip, bound: float) -> FloatArray:
+def held_timing(stage_end_frames: IntArray, rate_hz: float, bound: float) -> FloatArray:
     """Return the timing in which each stage sets out slowly and comes to rest, by a share."""
     share = HELD * bound
-    source = np.arange(len(clip), dtype=np.float64)
+    source = np.arange(stage_end_frames[-1] + 1, dtype=np.float64)
     start = 0
-    for end in clip.stage_end_frames.tolist():
+    for end in stage_end_frames.tolist():
         if end > start:
             u = np.linspace(0.0, 1.0, end - start + 1)
-            if (end - start) / clip.rate_hz >= SHORTEST_STAGE_S:
+            if (end - start) / rate_hz >= SHORTEST_STAGE_S:
                 u += share * (smootherstep(u) - u)
             source[start : end + 1] = start + u * (end - start)
             start = end

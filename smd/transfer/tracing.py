@@ -7,11 +7,12 @@ from itertools import pairwise
 import numpy as np
 
 from smd.character.clip import Clip
+from smd.character.kinematics import joints_in_world
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import inverse, normalized, rotate
 from smd.transfer.body import Body
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.reaching import bearing, with_hand_moved, world_of_clip
+from smd.transfer.reaching import arm_poses, with_hand_moved
 
 STRAIGHTER = 0.8
 """Share of a sweep's bend that a direct hand leaves out."""
@@ -87,17 +88,21 @@ def _across(chord: FloatArray, bend: FloatArray) -> tuple[FloatArray, FloatArray
     return out, np.cross(along, out)
 
 
-def with_hands_redrawn(clip: Clip, body: Body, space: float) -> Clip:
+def with_hands_redrawn(clip: Clip, body: Body, space: float, bearing: FloatArray) -> Clip:
     """Return a clip whose hands go straighter ways, or wander, as seen from the chest.
 
-    A hand that rests on the ground stays there.
+    Parameters
+    ----------
+    space
+        As in `redrawn`.
+    bearing
+        ``(n, a)`` how surely each arm's hand rests on the ground: it stays there.
     """
-    world = world_of_clip(clip)
-    chest_q, chest = (part[:, body.chest] for part in world)
-    for arm in body.arms:
-        hand = world.position_m[:, arm.hand]
-        seen = rotate(inverse(chest_q), hand - chest)
+    local = clip.rotation_xyzw, clip.translation_m
+    chest_q, chest = (part[:, 0] for part in joints_in_world(clip.skeleton, [body.chest], *local))
+    poses = arm_poses(clip, body.arms)
+    for arm, pose, rests in zip(body.arms, poses, bearing.T, strict=True):
+        seen = rotate(inverse(chest_q), pose.hand_m - chest)
         offset = rotate(chest_q, redrawn(seen, space, clip.rate_hz))
-        free = 1.0 - bearing(hand[:, 1])
-        clip = with_hand_moved(clip, arm, free[:, None] * offset, world)
+        clip = with_hand_moved(clip, arm, pose, (1.0 - rests)[:, None] * offset)
     return clip

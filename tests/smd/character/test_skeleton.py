@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from actions_library.authoring.humanoid import HEIGHT_M, humanoid_skeleton
-from smd.character.kinematics import forward_kinematics
+from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 
@@ -97,3 +97,15 @@ def test_the_humanoids_sides_mirror_each_other():
             skeleton.world_from_bind[right, :3, 3] * [-1.0, 1.0, 1.0],
         )
         assert skeleton.roles[left] == skeleton.roles[right]
+
+
+def test_some_joints_alone_are_where_the_whole_skeleton_has_them():
+    skeleton = humanoid_skeleton()
+    random = np.random.default_rng(5)
+    q = random.normal(size=(4, len(skeleton), 4))
+    q /= np.linalg.norm(q, axis=-1, keepdims=True)
+    t = random.normal(size=(4, len(skeleton), 3))
+    whole = forward_kinematics(skeleton, q, t)
+    for joints in ([0], [len(skeleton) - 1, 5], [7, 7, 3]):
+        for one, other in zip(joints_in_world(skeleton, joints, q, t), whole, strict=True):
+            np.testing.assert_allclose(one, other[:, joints], atol=1e-12)

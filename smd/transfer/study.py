@@ -1,0 +1,43 @@
+"""Study: what the expression of a neutral clip goes by, found once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.character.kinematics import forward_kinematics
+from smd.geometry.arrays import FloatArray
+from smd.transfer.body import Body
+from smd.transfer.reaching import bearing
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Study:
+    """A neutral clip, and what of it is asked for every Effort.
+
+    Attributes
+    ----------
+    clip : neutral.
+    body : what of its skeleton expresses.
+    way_m : (n,) how far the joints have gone by each frame, on average, as seen from the ground
+        root.
+    hands_m : (n, a, 3) where the hands of the body's arms are.
+    bearing : (n, a) how surely each of them rests on the ground, from 0 to 1.
+    """
+
+    clip: Clip
+    body: Body
+    way_m: FloatArray
+    hands_m: FloatArray
+    bearing: FloatArray
+
+
+def study_of(clip: Clip, body: Body) -> Study:
+    """Return the study of a neutral clip."""
+    _, place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    steps = np.linalg.norm(np.diff(place - place[:, :1], axis=0), axis=-1).mean(axis=-1)
+    hands = place[:, [arm.hand for arm in body.arms]]
+    way = np.concatenate([[0.0], np.cumsum(steps)])
+    return Study(clip, body, way, hands, bearing(hands[..., 1]))
