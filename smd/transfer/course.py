@@ -9,11 +9,12 @@ character stood. Carrying that place along says the same with less.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from actions_library.library import IDLE
 from smd.score import Phrase
 from smd.transfer.gait import phase_after
-from smd.transfer.in_place import gesture, idling, turn, turn_passes, turns
+from smd.transfer.in_place import Facing, facing, gesture, idling, turn, turn_passes, turns
 from smd.transfer.move import Move, Placement, nearest_turn
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece, Repertoire
@@ -41,20 +42,17 @@ def course(
     cast = [None if span.phrase is None else pieces.of(span.phrase) for span in spans]
     for i, (span, piece) in enumerate(zip(spans, cast, strict=True)):
         last = i + 1 == len(spans)
+        following = None if last else spans[i + 1]
         if piece is None:
-            facing_rad = at.heading_rad
-            if not last:
-                facing_rad = nearest_turn(float(path.heading_at(span.end_s)), at.heading_rad)
-            following = None if last else spans[i + 1].phrase
-            rises_s = _rising_s(span, rest, following, pieces)
-            move = idling(
-                pieces.pieces[rest],
-                span.start_s,
-                rises_s,
-                at,
-                facing_rad=facing_rad,
-                clock_s=clock_s,
-            )
+            after = None if following is None else following.phrase
+            rises_s = _rising_s(span, rest, after, pieces)
+            begin_s = max(span.start_s, moves[-1].end_s) if moves else span.start_s
+            turning = _facing(span, following, path, at.heading_rad)
+            if moves:  # the body may still be coming back
+                added = turning.added_at(moves[-1].time_s)
+                moves[-1] = replace(moves[-1], heading_rad=moves[-1].heading_rad + added)
+            resting = pieces.pieces[rest]
+            move = idling(resting, begin_s, rises_s, at, turning, clock_s=clock_s)
             moves.append(move)
             if rises_s < span.end_s:
                 leaving = pieces.pieces[pieces.leaving[rest]]
@@ -63,11 +61,28 @@ def course(
         else:
             before = moves[-1] if i > 0 and _goes_on(cast[i - 1], piece) else None
             into_gait = not last and _goes_on(piece, cast[i + 1])
-            moves += _acted(piece, span, path, at, before, into_gait=into_gait)
             assert span.phrase is not None
             rest = pieces.rest_after(span.phrase.action)
+            pause_s = _pause_s(spans[i + 1 : i + 3], rest, pieces)
+            moves += _acted(piece, span, pause_s, path, at, before, into_gait=into_gait)
         at = moves[-1].end
     return tuple(moves)
+
+
+def _facing(span: Span, following: Span | None, path: GroundPath, heading_rad: float) -> Facing:
+    """Return how a performer turns in a pause to where its next phrase faces."""
+    turn_rad = 0.0
+    if following is not None:
+        turn_rad = nearest_turn(float(path.heading_at(span.end_s)), heading_rad) - heading_rad
+    return facing(turn_rad, span.start_s, span.end_s)
+
+
+def _pause_s(following: Sequence[Span], rest: str, pieces: Repertoire) -> float:
+    """Return how long nothing is performed after a phrase, given the two spans that follow it."""
+    if not following or following[0].phrase is not None:
+        return 0.0
+    after = following[1].phrase if len(following) > 1 else None
+    return _rising_s(following[0], rest, after, pieces) - following[0].start_s
 
 
 def _rising_s(span: Span, rest: str, following: Phrase | None, pieces: Repertoire) -> float:
@@ -94,6 +109,7 @@ def _goes_on(before: Piece | None, after: Piece | None) -> bool:
 def _acted(
     piece: Piece,
     span: Span,
+    pause_s: float,
     path: GroundPath,
     at: Placement,
     before: Move | None,
@@ -104,6 +120,8 @@ def _acted(
 
     Parameters
     ----------
+    pause_s
+        How long nothing is performed after the phrase.
     before
         The move that this one goes on from along the path, if it does.
     """
@@ -128,14 +146,15 @@ def _acted(
         )
         return [move]
     if piece.travels:
-        return [leap(piece, path, start_s, end_s, at)]
+        return [leap(piece, path, start_s, end_s, at, pause_s=pause_s)]
     at = Placement(at.position_m, nearest_turn(float(path.heading_at(start_s)), at.heading_rad))
     if not turns(piece):
-        return [gesture(piece, start_s, end_s, at)]
+        return [gesture(piece, start_s, end_s, at, pause_s=pause_s)]
     passes = turn_passes(piece, float(path.heading_at(end_s) - path.heading_at(start_s)))
     edges = [start_s + (end_s - start_s) * i / len(passes) for i in range(len(passes) + 1)]
     moves: list[Move] = []
     for first_s, last_s, turn_rad in zip(edges[:-1], edges[1:], passes, strict=True):
-        moves.append(turn(piece, first_s, last_s, at, turn_rad))
+        after_s = pause_s if last_s == edges[-1] else 0.0
+        moves.append(turn(piece, first_s, last_s, at, turn_rad, pause_s=after_s))
         at = moves[-1].end
     return moves

@@ -14,6 +14,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -31,10 +32,10 @@ from smd.transfer.study import Study
 from smd.transfer.timing import (
     ALPHA,
     EVENED,
-    FASTEST,
     SOFTENED,
     after_waiting,
     busy_share,
+    fastest_paces,
     held_timing,
     pace_timing,
     time_timing,
@@ -113,7 +114,8 @@ def effort_timing(study: Study, time: float, weight: float, flow: float) -> Floa
         held = held_timing(ends, clip.rate_hz, flow)
         source_frame = np.interp(held, frame, source_frame)
     busy = busy_share(time)
-    return after_waiting(within_pace(source_frame, FASTEST * busy), busy)
+    fastest = fastest_paces(study.turning_rad_s, busy)
+    return after_waiting(within_pace(source_frame, fastest), busy)
 
 
 def with_small_beginning(clip: Clip, time: float, body: Body) -> Clip:
@@ -129,7 +131,7 @@ def with_small_beginning(clip: Clip, time: float, body: Body) -> Clip:
     back = smootherstep((np.arange(last + 1) - anticipated) / max(executed - anticipated, 1))
     if anticipated == 0:
         return clip
-    return rescaled(clip, body.every, shrunk + (1.0 - shrunk) * back, about=0)
+    return softly_rescaled(clip, body.every, shrunk + (1.0 - shrunk) * back, about=0)
 
 
 def with_weight(clip: Clip, weight: float, body: Body, *, gait: bool) -> Clip:
@@ -138,8 +140,22 @@ def with_weight(clip: Clip, weight: float, body: Body, *, gait: bool) -> Clip:
     joints = body.upper if gait else body.every
     bending = [j for j in joints if weight < 0.0 or j not in body.hinges]
     if clip.cyclic:
-        return rescaled(clip, bending, np.full(len(clip), scale), about=middle_frame(clip))
-    return rescaled(clip, bending, 1.0 + settled(len(clip), EDGE) * (scale - 1.0), about=0)
+        about, factor = middle_frame(clip), np.full(len(clip), scale)
+    else:
+        about, factor = 0, 1.0 + settled(len(clip), EDGE) * (scale - 1.0)
+    return softly_rescaled(clip, bending, factor, about)
+
+
+def softly_rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) -> Clip:
+    """Return a clip rescaled in full where it is near to a pose, less the farther it turns away.
+
+    The share is the cosine of half the angle: 0.7 at a right angle, nothing at half a turn, where
+    the shorter way back changes sides, and beyond which no arm is raised.
+    """
+    at = list(joints)
+    q = clip.rotation_xyzw[:, at]
+    share = np.abs(np.einsum("nji,ji->nj", q, q[about]))
+    return rescaled(clip, at, 1.0 + (factor - 1.0)[:, None] * share, about)
 
 
 def with_shape(clip: Clip, weight: float, body: Body) -> Clip:

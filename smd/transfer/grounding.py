@@ -11,7 +11,7 @@ from smd.character.ik import two_bone_ik
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
-from smd.transfer.easing import gaussian_smoothed
+from smd.transfer.easing import gaussian_smoothed, smootherstep
 from smd.transfer.footing import footing
 from smd.transfer.legs import Leg, world_of, yaw_of
 from smd.transfer.poses import Poses
@@ -22,6 +22,13 @@ SOFTNESS = 0.004
 
 MOST_SINK_M = 0.12
 """How far the body sinks at most so that a standing leg reaches its foot."""
+
+FREED_S = 0.12
+"""Time from leaving the ground in which a leg comes back to its own length, and as long before it
+lands."""
+
+BLUNT_M = 0.01
+"""Over which that sets in, so that nothing kinks."""
 
 SINKING_S = 0.12
 """How long before and after the body begins and ends to sink."""
@@ -59,11 +66,16 @@ def grounded(
         feet.append(foot)
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     pelvis = _pelvis(skeleton, legs)
+    sunk_m = np.zeros_like(translation[:, 0])
     if pelvis is not None:
-        short_m = np.max([foot.short_m for foot in feet], axis=0)
-        translation[:, pelvis, 1] -= _sunk(short_m, rate_hz)
-    for foot in feet:
-        _bring(skeleton, foot, rotation, translation)
+        sunk_m[:, 1] = _sunk(np.max([foot.short_m for foot in feet], axis=0), rate_hz)
+        translation[:, pelvis] -= sunk_m
+    for i, foot in enumerate(feet):
+        hip_m = hips[i] - sunk_m
+        led_m = _unstretched(
+            raw[i][1] - hips[i], foot.ankle_m - hip_m, stands[:, i], legs[i], rate_hz
+        )
+        _bring(skeleton, foot._replace(ankle_m=hip_m + led_m), rotation, translation)
     return Poses(rotation, translation)
 
 
@@ -96,7 +108,42 @@ def _put(
     aside_m = np.hypot(*(hip_m - ankle_m)[:, [0, 2]].T)
     depth_m = np.sqrt(np.maximum(reach_m**2 - aside_m**2, 0.0))
     short_m = np.maximum(hip_m[:, 1] - ankle_m[:, 1] - depth_m, 0.0)
-    return _Foot(leg, multiply(about, raw[0]), ankle_m, np.where(step.stands, short_m, 0.0))
+    short_m = np.where(step.stands, short_m, 0.0)
+    return _Foot(leg, multiply(about, raw[0]), ankle_m, short_m)
+
+
+def _unstretched(
+    own_m: FloatArray, moved_m: FloatArray, stands: BoolArray, leg: Leg, rate_hz: float
+) -> FloatArray:
+    """Return where a foot goes, seen from the hip, so that no free leg is longer than its own.
+
+    Between two stands a foot is led from one place to the other; in a roll or a leap the body
+    goes elsewhere, and the leg would be torn straight on the way.
+
+    Parameters
+    ----------
+    own_m, moved_m
+        ``(n, 3)`` as the poses have it, and as it is led.
+    stands
+        When it should stand, on the ground or just above it.
+    """
+    free = smootherstep(_frames_to(stands) / (FREED_S * rate_hz))
+    own, moved = np.linalg.norm(own_m, axis=-1), np.linalg.norm(moved_m, axis=-1)
+    longest = leg.limb.reach_m + free * (own - leg.limb.reach_m)
+    blunt = BLUNT_M * free + 1e-6
+    over = blunt * np.logaddexp(0.0, (moved - longest) / blunt)
+    over[stands] = 0.0  # the body sinks for those
+    return moved_m * (1.0 - over / np.maximum(moved, 1e-9))[:, None]
+
+
+def _frames_to(true: BoolArray) -> FloatArray:
+    """Return how many frames each one is away from the nearest that is true."""
+    frames, at = np.arange(len(true)), np.flatnonzero(true)
+    if len(at) == 0:
+        return np.full(len(true), float(len(true)))
+    after = np.searchsorted(at, frames)
+    left, right = at[np.maximum(after - 1, 0)], at[np.minimum(after, len(at) - 1)]
+    return np.minimum(np.abs(frames - left), np.abs(frames - right)).astype(np.float64)
 
 
 def _stepping(

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from smd.geometry.arrays import FloatArray
 from smd.transfer.easing import smootherstep
 from smd.transfer.ground_root import turned
 from smd.transfer.move import Move, Placement, knots
+from smd.transfer.pacing import Pacing, paced
 from smd.transfer.repertoire import Piece
 
 TURNING_RAD = np.radians(15.0)
@@ -16,7 +20,7 @@ MOST_TURN_PER_PASS = 1.5
 """How many times its own angle a turning clip turns at most; beyond that it is played again."""
 
 FACING_S = 0.6
-"""Least time in which an idling character turns to where its next phrase faces."""
+"""Least time in which a pausing character turns to where its next phrase faces."""
 
 FACING_RAD_S = 2.5
 """How fast it turns on the way, on average, where there is time for it."""
@@ -25,51 +29,84 @@ FACING_EARLY_S = 0.25
 """How long before that phrase it has done so, where there is time."""
 
 
+@dataclass(frozen=True, slots=True)
+class Facing:
+    """How a performer turns, in a pause, to where its next phrase faces.
+
+    Attributes
+    ----------
+    turn_rad : how far.
+    begin_s, done_s : on the recording's clock.
+    """
+
+    turn_rad: float
+    begin_s: float
+    done_s: float
+
+    def added_at(self, time_s: FloatArray) -> FloatArray:
+        """Return the angle that is turned by some times."""
+        share = (time_s - self.begin_s) / max(self.done_s - self.begin_s, 1e-9)
+        return self.turn_rad * smootherstep(share)
+
+
+def facing(turn_rad: float, start_s: float, end_s: float) -> Facing:
+    """Return how a performer turns by an angle in a pause: late in it, where there is time."""
+    lasting_s = min(max(FACING_S, abs(turn_rad) / FACING_RAD_S), end_s - start_s)
+    done_s = end_s - min(FACING_EARLY_S, end_s - start_s - lasting_s)
+    return Facing(turn_rad, done_s - lasting_s, done_s)
+
+
 def idling(
-    piece: Piece, start_s: float, end_s: float, at: Placement, *, facing_rad: float, clock_s: float
+    piece: Piece, start_s: float, end_s: float, at: Placement, facing: Facing, *, clock_s: float
 ) -> Move:
     """Stand where the last phrase ended, and face where the next one will at its start.
 
     Parameters
     ----------
-    facing_rad
-        Heading at the end.
+    at
+        Where it stands; its heading is the one before it turns.
     clock_s
         Time at which the idle clip began: it goes on all the while, seen or not.
     """
     time_s = knots(start_s, end_s)
-    wanted_s = max(FACING_S, abs(facing_rad - at.heading_rad) / FACING_RAD_S)
-    facing_s = min(wanted_s, end_s - start_s)
-    done_s = end_s - min(FACING_EARLY_S, end_s - start_s - facing_s)
-    share = smootherstep((time_s - done_s) / max(facing_s, 1e-9) + 1.0)
     return Move(
         piece=piece,
         start_s=start_s,
         end_s=end_s,
         time_s=time_s,
         root_m=np.broadcast_to(at.position_m, (len(time_s), 2)),
-        heading_rad=at.heading_rad + share * (facing_rad - at.heading_rad),
+        heading_rad=at.heading_rad + facing.added_at(time_s),
         frame=(time_s - clock_s) * piece.clip.rate_hz,
         presence=np.ones(len(time_s)),
         idles=True,
     )
 
 
-def gesture(piece: Piece, start_s: float, end_s: float, at: Placement) -> Move:
+def gesture(
+    piece: Piece, start_s: float, end_s: float, at: Placement, *, pause_s: float = 0.0
+) -> Move:
     """Play a clip on the spot, once, or as often as its own time allows if it is cyclic.
 
     The heading holds. A step that the clip itself takes is taken.
+
+    Parameters
+    ----------
+    pause_s
+        How long nothing is performed afterwards: what is played once may come back in it.
     """
-    time_s = knots(start_s, end_s)
-    share = (time_s - start_s) / (end_s - start_s)
-    cycles = max(round((end_s - start_s) / piece.clip.duration_s), 1) if piece.clip.cyclic else 1
-    frame = share * cycles * piece.last_frame
+    if piece.clip.cyclic:
+        cycles = max(round((end_s - start_s) / piece.clip.duration_s), 1)
+        pacing = Pacing(start_s, end_s, cycles * piece.last_frame)
+    else:
+        pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
+    time_s = knots(start_s, pacing.end_s)
+    frame = pacing.frame_at(time_s)
     own_frame = np.mod(frame, piece.last_frame) if piece.clip.cyclic else frame
     step = turned(piece.root.position_at(own_frame), at.heading_rad)
     return Move(
         piece=piece,
         start_s=start_s,
-        end_s=end_s,
+        end_s=pacing.end_s,
         time_s=time_s,
         root_m=at.position_m + step,
         heading_rad=np.full(len(time_s), at.heading_rad),
@@ -96,14 +133,23 @@ def turn_passes(piece: Piece, prop_turn_rad: float) -> tuple[float, ...]:
     return (whole_rad / passes,) * passes
 
 
-def turn(piece: Piece, start_s: float, end_s: float, at: Placement, turn_rad: float) -> Move:
-    """Turn by an angle, with the clip's own course of turning."""
-    time_s = knots(start_s, end_s)
-    frame = (time_s - start_s) / (end_s - start_s) * piece.last_frame
+def turn(
+    piece: Piece,
+    start_s: float,
+    end_s: float,
+    at: Placement,
+    turn_rad: float,
+    *,
+    pause_s: float = 0.0,
+) -> Move:
+    """Turn by an angle, with the clip's own course of turning; `pause_s` as in `gesture`."""
+    pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
+    time_s = knots(start_s, pacing.end_s)
+    frame = pacing.frame_at(time_s)
     return Move(
         piece=piece,
         start_s=start_s,
-        end_s=end_s,
+        end_s=pacing.end_s,
         time_s=time_s,
         root_m=at.position_m + turned(piece.root.position_at(frame), at.heading_rad),
         heading_rad=at.heading_rad + piece.root.yaw_at(frame) / piece.root.turn_rad * turn_rad,

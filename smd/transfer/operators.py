@@ -107,8 +107,9 @@ def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) 
     joints
         Which; the ground root is none of them.
     factor
-        ``(n,)``, not negative; where it is 1 nothing changes. Let it change smoothly, since a jump
-        of it is one of the pose.
+        ``(n,)``, or ``(n, k)`` of each joint, not negative; where it is 1 nothing changes. Let it
+        change smoothly, since a jump of it is one of the pose; and let it be 1 where a joint is
+        half a turn away from the pose, since there its way back changes sides.
     about
         The frame whose pose it is scaled about: the first one of a stage.
     """
@@ -117,10 +118,10 @@ def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) 
     first = rotation[about, at]
     own = rotation[:, at]
     from_first = rotvec_from_quaternion(multiply(own, inverse(first)))
-    scaled = quaternion_from_rotvec(factor[:, None, None] * from_first)
-    rotation[:, at] = multiply(scaled, first)
+    factor = factor.reshape(len(clip), -1, 1)
+    rotation[:, at] = multiply(quaternion_from_rotvec(factor * from_first), first)
     place = translation[about, at]
-    translation[:, at] = place + factor[:, None, None] * (translation[:, at] - place)
+    translation[:, at] = place + factor * (translation[:, at] - place)
     return replace(clip, rotation_xyzw=rotation, translation_m=translation)
 
 

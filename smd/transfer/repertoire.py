@@ -10,7 +10,7 @@ import numpy as np
 from actions_library.library import IDLE, Library
 from laban import Effort
 from smd.character.clip import Clip
-from smd.character.kinematics import joints_in_world
+from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
 from smd.transfer.body import body_of
@@ -18,6 +18,7 @@ from smd.transfer.expression import expressive
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.legs import Leg, feet_of, legs_of, yaw_of
+from smd.transfer.pacing import near_share
 from smd.transfer.standing import standing
 from smd.transfer.study import Study, study_of
 
@@ -37,6 +38,7 @@ class Piece:
     stands : (n,) when each foot stands, by the foot's joint.
     yaw_rad : (n,) which way each foot points in the clip's own world, without jumps.
     gait : what it does per cycle, if it steps along the path.
+    near : share of its transition after which its pose is near to its last one.
     """
 
     clip: Clip
@@ -45,6 +47,7 @@ class Piece:
     stands: Mapping[int, BoolArray]
     yaw_rad: Mapping[int, FloatArray]
     gait: Gait | None
+    near: float
 
     @property
     def last_frame(self) -> int:
@@ -146,8 +149,7 @@ def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: f
                 studies[phrase.action] = study_of(neutral.clip, body)
             effort = played_effort(phrase.effort, expressiveness)
             clip = expressive(studies[phrase.action], effort, travels=neutral.travels)
-            feet = tuple(neutral.stands)
-            pieces[name] = piece_of(clip, travels=neutral.travels, legs=legs, feet=feet)
+            pieces[name] = piece_of(clip, travels=neutral.travels, legs=legs, neutral=neutral)
     return Repertoire(pieces, legs, rests, leaving, expressiveness)
 
 
@@ -165,12 +167,22 @@ def _leaving(library: Library, rests: set[str]) -> dict[str, str]:
 
 
 def piece_of(
-    clip: Clip, *, travels: bool, legs: Sequence[Leg], feet: Sequence[int] | None = None
+    clip: Clip, *, travels: bool, legs: Sequence[Leg], neutral: Piece | None = None
 ) -> Piece:
-    """Study one clip; ``feet`` are those that touch in it, where they are known."""
-    stands = standing(clip, legs, feet)
+    """Study one clip.
+
+    Parameters
+    ----------
+    neutral
+        What the clip is an expression of: the same feet touch in both.
+    """
+    stands = standing(clip, legs, None if neutral is None else tuple(neutral.stands))
     gait = gait_of(clip, stands) if travels and clip.cyclic else None
     local = clip.rotation_xyzw, clip.translation_m
     foot_q, _ = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
     yaw = {leg.foot: yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)}
-    return Piece(clip, travels, ground_root(clip), stands, yaw, gait)
+    if neutral is not None:
+        near = neutral.near
+    else:
+        near = near_share(clip, forward_kinematics(clip.skeleton, *local)[1])
+    return Piece(clip, travels, ground_root(clip), stands, yaw, gait, near)

@@ -23,6 +23,7 @@ class Study:
     body : what of its skeleton expresses.
     way_m : (n,) how far the joints have gone by each frame, on average, as seen from the ground
         root.
+    turning_rad_s : (n - 1,) how fast the joint turns that turns fastest.
     hands_m : (n, a, 3) where the hands of the body's arms are.
     bearing : (n, a) how surely each of them rests on the ground, from 0 to 1.
     """
@@ -30,6 +31,7 @@ class Study:
     clip: Clip
     body: Body
     way_m: FloatArray
+    turning_rad_s: FloatArray
     hands_m: FloatArray
     bearing: FloatArray
 
@@ -40,4 +42,7 @@ def study_of(clip: Clip, body: Body) -> Study:
     steps = np.linalg.norm(np.diff(place - place[:, :1], axis=0), axis=-1).mean(axis=-1)
     hands = place[:, [arm.hand for arm in body.arms]]
     way = np.concatenate([[0.0], np.cumsum(steps)])
-    return Study(clip, body, way, hands, bearing(hands[..., 1]))
+    q = clip.rotation_xyzw[:, 1:]
+    cosine = np.abs(np.einsum("nji,nji->nj", q[1:], q[:-1])).min(axis=1)
+    turning = 2.0 * np.arccos(np.minimum(cosine, 1.0)) * clip.rate_hz
+    return Study(clip, body, way, turning, hands, bearing(hands[..., 1]))

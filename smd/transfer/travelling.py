@@ -8,6 +8,7 @@ from smd.geometry.arrays import FloatArray
 from smd.transfer.easing import eased_clock, gaussian_smoothed, smootherstep
 from smd.transfer.ground_root import executed
 from smd.transfer.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
+from smd.transfer.pacing import paced
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
 
@@ -89,28 +90,43 @@ def along_path(
     )
 
 
-def leap(piece: Piece, path: GroundPath, start_s: float, end_s: float, at: Placement) -> Move:
+def leap(
+    piece: Piece,
+    path: GroundPath,
+    start_s: float,
+    end_s: float,
+    at: Placement,
+    *,
+    pause_s: float = 0.0,
+) -> Move:
     """Go along the path with a clip that travels once, such as a jump.
 
     The ground root follows the path, re-timed so that it moves during the clip's execution alone
     and as the clip's own does; it turns on the way as the prop did from start to end.
+
+    Parameters
+    ----------
+    pause_s
+        How long nothing is performed afterwards: the body may come back in it.
     """
-    time_s = knots(start_s, end_s)
-    frame = (time_s - start_s) / (end_s - start_s) * piece.last_frame
+    pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
+    time_s = knots(start_s, pacing.end_s)
+    frame = pacing.frame_at(time_s)
     share = np.interp(frame, np.arange(len(piece.clip)), executed(piece.clip, piece.root))
-    over_ground = path.at(time_s)
+    phrase_s = knots(start_s, end_s)
+    over_ground = path.at(phrase_s)
     way_m = np.concatenate(
         [[0.0], np.cumsum(np.linalg.norm(np.diff(over_ground, axis=0), axis=-1))]
     )
     if way_m[-1] > NOWHERE_M:
-        clock_s = np.interp(share * way_m[-1], way_m, time_s)
+        clock_s = np.interp(share * way_m[-1], way_m, phrase_s)
     else:
         clock_s = start_s + share * (end_s - start_s)
     first, last = path.heading_at(start_s), path.heading_at(end_s)
     return Move(
         piece=piece,
         start_s=start_s,
-        end_s=end_s,
+        end_s=pacing.end_s,
         time_s=time_s,
         root_m=at.position_m + path.at(clock_s) - over_ground[0],
         heading_rad=nearest_turn(float(first), at.heading_rad) + share * (last - first),

@@ -179,9 +179,12 @@ def test_every_timing_goes_on_from_the_first_frame_to_the_last(lasting, power, n
     assert frames[0] == pytest.approx(0.0, abs=1e-9)
     assert frames[-1] == pytest.approx(len(clip) - 1)
     assert (np.diff(frames) > 0.0).all()
-    kept = within_pace(frames)
+    fastest = np.linspace(1.2, FASTEST, len(clip) - 1)
+    kept = within_pace(frames, fastest)
     assert kept[-1] == pytest.approx(len(clip) - 1)
     assert (np.diff(kept) > 0.0).all()
+    most = np.interp(0.5 * (kept[1:] + kept[:-1]), np.arange(len(clip) - 1) + 0.5, fastest)
+    assert (np.diff(kept) < 1.25 * most).all()
 
 
 @pytest.mark.parametrize("value", [-1.0, -0.4, 0.4, 1.0])

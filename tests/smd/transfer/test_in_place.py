@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from smd.transfer.in_place import gesture, idling, turn, turn_passes, turns
+from smd.transfer.in_place import facing, gesture, idling, turn, turn_passes, turns
 from smd.transfer.move import Placement
 
 AT = Placement(np.array([3.0, -2.0]), 0.5)
@@ -56,18 +56,18 @@ def test_a_clip_that_hardly_turns_is_no_turn(make_piece):
 
 
 def test_idling_stays_and_faces_the_next_phrase_before_it_begins(make_piece):
-    move = idling(make_piece(cyclic=True), 1.0, 5.0, AT, facing_rad=1.5, clock_s=0.0)
+    move = idling(make_piece(cyclic=True), 1.0, 5.0, AT, facing(1.0, 1.0, 5.0), clock_s=0.0)
     assert (move.root_m == AT.position_m).all()
     assert move.heading_at(np.array([1.0, 4.0])) == pytest.approx([0.5, 0.5])
     assert move.heading_at(np.array([4.76, 5.0])) == pytest.approx([1.5, 1.5])
 
 
 def test_idling_goes_on_all_the_while(make_piece):
-    move = idling(make_piece(cyclic=True), 1.0, 5.0, AT, facing_rad=0.5, clock_s=-2.0)
+    move = idling(make_piece(cyclic=True), 1.0, 5.0, AT, facing(0.0, 1.0, 5.0), clock_s=-2.0)
     assert move.frame[[0, -1]] == pytest.approx([180.0, 420.0])
 
 
 def test_idling_for_no_time_at_all_is_finite(make_piece):
-    move = idling(make_piece(cyclic=True), 1.0, 1.0, AT, facing_rad=0.5, clock_s=1.0)
+    move = idling(make_piece(cyclic=True), 1.0, 1.0, AT, facing(0.4, 1.0, 1.0), clock_s=1.0)
     for values in (move.root_m, move.heading_rad, move.frame, move.presence):
         assert np.isfinite(values).all()
