@@ -26,6 +26,9 @@ MOST_SINK_M = 0.12
 MOST_BEND_RAD = np.radians(150.0)
 """Of a knee; a foot that stands nearer to its hip than this allows is not held there."""
 
+MOST_TWIST_RAD = np.radians(70.0)
+"""Of a foot beside where the poses have it pointing: a body that turns farther takes it along."""
+
 FREED_S = 0.12
 """Time from leaving the ground in which a leg comes back to its own length, and as long before it
 lands."""
@@ -63,16 +66,14 @@ def grounded(
     for i, leg in enumerate(legs):
         by = (pivot_rad[:, i], lift_m[:, i], rate_hz)
         foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
-        folded = np.linalg.norm(foot.ankle_m - hips[i], axis=-1) < leg.limb.span_m(MOST_BEND_RAD)
-        out_of_reach = (foot.short_m > MOST_SINK_M) | folded
-        if out_of_reach.any():  # let go of the ground earlier, or take hold of it later
-            foot = _put(leg, raw[i], hips[i], stands[:, i] & ~out_of_reach, *by)
+        if not foot.able.all():  # let go of the ground earlier, or take hold of it later
+            foot = _put(leg, raw[i], hips[i], stands[:, i] & foot.able, *by)
         feet.append(foot)
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     pelvis = _pelvis(skeleton, legs)
     sunk_m = np.zeros_like(translation[:, 0])
     if pelvis is not None:
-        short_m, room_m = (np.stack(part) for part in zip(*(f[3:] for f in feet), strict=True))
+        short_m, room_m = (np.stack(part) for part in zip(*(f[4:] for f in feet), strict=True))
         sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
         translation[:, pelvis] -= sunk_m
     for i, foot in enumerate(feet):
@@ -87,6 +88,7 @@ def grounded(
 class _Foot(NamedTuple):
     """Where a foot goes: its rotation and ankle in the world.
 
+    ``able`` is when the leg can hold it there;
     ``short_m`` is how much too high the hip is for the leg to reach a standing foot, 0 otherwise;
     ``room_m`` how far it may sink before the knee of a standing foot is bent too much.
     """
@@ -94,6 +96,7 @@ class _Foot(NamedTuple):
     leg: Leg
     rotation_xyzw: FloatArray
     ankle_m: FloatArray
+    able: BoolArray
     short_m: FloatArray
     room_m: FloatArray
 
@@ -120,7 +123,9 @@ def _put(
     )
     short_m = np.where(step.stands, np.maximum(above_m - highest_m, 0.0), 0.0)
     room_m = np.where(step.stands, np.maximum(above_m - lowest_m, 0.0), np.inf)
-    return _Foot(leg, multiply(about, raw[0]), ankle_m, short_m, room_m)
+    able = (short_m <= MOST_SINK_M) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
+    able &= np.hypot(aside_m, above_m) >= leg.limb.span_m(MOST_BEND_RAD)
+    return _Foot(leg, multiply(about, raw[0]), ankle_m, able, short_m, room_m)
 
 
 def _unstretched(
