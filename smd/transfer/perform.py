@@ -86,7 +86,7 @@ def perform(
     pieces = repertoire(library, phrases, expressiveness=expressiveness)
     actors = tuple(
         act(part, recording, stage, library.character, pieces, time_s, rate_hz, ahead)
-        for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
+        for part, ahead in zip(score.performers, idling_aheads(), strict=False)
     )
     return Performance(rate_hz, start_s, actors, score)
 
@@ -127,11 +127,8 @@ def act(
     idling_ahead: float,
 ) -> Actor:
     """Act out one part at even times, ``idling_ahead`` of a cycle ahead in its idling."""
-    doodles = recording.of(part.device)
-    path = ground_path(doodles, stage)
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
-    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    moves = course(spans, path, pieces, clock_s=clock_s)
+    moves = moves_of(part, recording, stage, pieces, time_s, clock_s=clock_s)
     poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
     poses = placed(poses, moves, time_s, rate_hz)
     feet = [leg.foot for leg in pieces.legs]
@@ -142,12 +139,33 @@ def act(
         character=character,
         rotation_xyzw=sign_continuous(poses.rotation_xyzw),
         translation_m=poses.translation_m,
-        doodles=tuple(stage.placed_doodle(doodle) for doodle in doodles),
+        doodles=tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device)),
         part=part,
     )
 
 
-def _idling_ahead() -> Iterator[float]:
+def moves_of(
+    part: Part,
+    recording: Recording,
+    stage: Stage,
+    pieces: Repertoire,
+    time_s: FloatArray,
+    *,
+    clock_s: float,
+) -> tuple[Move, ...]:
+    """Return the moves of one part, from the first of some times to the last.
+
+    Parameters
+    ----------
+    clock_s
+        Time at which its idling began.
+    """
+    path = ground_path(recording.of(part.device), stage)
+    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
+    return course(spans, path, pieces, clock_s=clock_s)
+
+
+def idling_aheads() -> Iterator[float]:
     """Return how far ahead each performer is in its idling, so that no two breathe as one."""
     golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
     return (golden * i % 1.0 for i in itertools.count())
