@@ -44,3 +44,5 @@ def animate(
     performance = smd.animate(score, take, shelf, rate_hz=fps, expressiveness=expressiveness)
     smd.write(performance, output)
     typer.echo(f"{output}: {reading.summary(take, score)}")
+    for line in performance.score.warnings[len(score.warnings) :]:
+        typer.echo(f"  {line}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import itertools
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Score
 from smd.transfer.acting import acted_contacts, acted_poses
+from smd.transfer.cautions import hurried
 from smd.transfer.course import course
 from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.grounding import grounded
@@ -88,7 +90,9 @@ def perform(
         act(part, recording, stage, library.character, pieces, time_s, rate_hz, ahead)
         for part, ahead in zip(score.performers, idling_aheads(), strict=False)
     )
-    return Performance(rate_hz, start_s, actors, score)
+    cautions = [line for part in score.performers for line in hurried(part, pieces)]
+    said = replace(score, warnings=(*score.warnings, *cautions))
+    return Performance(rate_hz, start_s, actors, said)
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
