@@ -18,7 +18,9 @@ from smd.score import Part, Score
 from smd.transfer.acting import acted_contacts, acted_poses
 from smd.transfer.course import course
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.grounding import grounded
+from smd.transfer.flight import flights, height_of, raised
+from smd.transfer.grounding import Rise, grounded
+from smd.transfer.legs import pelvis_of
 from smd.transfer.move import Move
 from smd.transfer.path import ground_path
 from smd.transfer.performance import Actor, Performance
@@ -134,9 +136,11 @@ def act(
     moves = course(spans, path, pieces, clock_s=clock_s)
     poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
     poses = placed(poses, moves, time_s, rate_hz)
+    body = pelvis_of(character.skeleton, pieces.legs) or 0
+    rise = Rise(*raised(list(flights(moves, height_of(doodles, stage), body)), time_s))
     feet = [leg.foot for leg in pieces.legs]
     stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
-    poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz)
+    poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz, rise)
     return Actor(
         device=part.device,
         character=character,
