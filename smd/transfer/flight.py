@@ -19,7 +19,6 @@ from smd.geometry.arrays import FloatArray
 from smd.transfer.easing import fading
 from smd.transfer.move import Move
 from smd.transfer.repertoire import Piece
-from smd.transfer.stage import Stage
 
 GRAVITY_M_S2 = 9.81
 
@@ -57,11 +56,11 @@ class Height:
         return float(np.max(self.height_m[inside] - line, initial=0.0))
 
 
-def height_of(doodles: Sequence[Doodle], stage: Stage) -> Height:
-    """Return how high a device's prop was on the stage."""
+def height_of(doodles: Sequence[Doodle]) -> Height:
+    """Return how high a device's prop was, given its doodles at the stage's scale."""
     return Height(
         np.concatenate([doodle.time_s for doodle in doodles]),
-        np.concatenate([stage.placed(doodle.position_m)[:, 1] for doodle in doodles]),
+        np.concatenate([doodle.position_m[:, 1] for doodle in doodles]),
     )
 
 

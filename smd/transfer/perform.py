@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from actions_library.library import Library
 from smd.character.character import Character
-from smd.doodle import Recording
+from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
@@ -18,16 +19,17 @@ from smd.score import Part, Score
 from smd.transfer.acting import acted_contacts, acted_poses
 from smd.transfer.course import course
 from smd.transfer.easing import gaussian_smoothed
+from smd.transfer.facing import HEADINGS
 from smd.transfer.flight import flights, height_of, raised
 from smd.transfer.grounding import Rise, grounded
 from smd.transfer.legs import pelvis_of
 from smd.transfer.move import Move
-from smd.transfer.path import ground_path
+from smd.transfer.path import GroundPath, ground_path
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Repertoire, repertoire
 from smd.transfer.stage import Stage, stage_for
-from smd.transfer.timeline import timeline
+from smd.transfer.timeline import Span, timeline
 
 RATE_HZ = 24.0
 """Frames per second: film's, and what Blender's importer leaves its scene at."""
@@ -46,6 +48,7 @@ def perform(
     *,
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
+    heading: str = "prop",
 ) -> Performance:
     """Act out a Score.
 
@@ -61,19 +64,23 @@ def perform(
         Frames per second, positive.
     expressiveness
         How much of the phrases' Effort is played, from 0 (neutral clips) to 2.
+    heading
+        What performers face by, "prop" or "path".
 
     Raises
     ------
     ScoreError
         If an action, a device or a time is not there.
     TransferError
-        If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2, or
-        the Score has no performers.
+        If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2,
+        ``heading`` is neither, or the Score has no performers.
     """
     if not 0.0 <= expressiveness <= 2.0:
         raise TransferError(f"expressiveness: expected 0 to 2, got {expressiveness!r}")
     if not (np.isfinite(rate_hz) and rate_hz > 0):
         raise TransferError(f"rate_hz: expected a positive number, got {rate_hz!r}")
+    if heading not in HEADINGS:
+        raise TransferError(f"heading: expected {' or '.join(HEADINGS)}, got {heading!r}")
     if not score.performers:
         raise TransferError("score: expected at least one performer, got none")
     for part in score.performers:
@@ -86,10 +93,11 @@ def perform(
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
     phrases = [phrase for part in score.performers for phrase in part.phrases]
     pieces = repertoire(library, phrases, expressiveness=expressiveness)
-    actors = tuple(
-        act(part, recording, stage, library.character, pieces, time_s, rate_hz, ahead)
+    staged = [
+        enter(part, recording.of(part.device), stage, pieces, time_s, ahead, HEADINGS[heading])
         for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
-    )
+    ]
+    actors = tuple(act(one, library.character, time_s, rate_hz) for one in staged)
     return Performance(rate_hz, start_s, actors, score)
 
 
@@ -118,36 +126,61 @@ def check_part(part: Part, recording: Recording, library: Library) -> None:
             )
 
 
-def act(
+@dataclass(frozen=True, slots=True, eq=False)
+class Staged:
+    """A performer that knows where it goes and what it does there.
+
+    Attributes
+    ----------
+    part : what it performs.
+    doodles : at stage scale.
+    pieces : what it can do.
+    moves : one after the other, from the first frame to the last.
+    clock_s : when its idling began.
+    """
+
+    part: Part
+    doodles: tuple[Doodle, ...]
+    pieces: Repertoire
+    moves: tuple[Move, ...]
+    clock_s: float
+
+
+def enter(
     part: Part,
-    recording: Recording,
+    doodles: Sequence[Doodle],
     stage: Stage,
-    character: Character,
     pieces: Repertoire,
     time_s: FloatArray,
-    rate_hz: float,
     idling_ahead: float,
-) -> Actor:
-    """Act out one part at even times, ``idling_ahead`` of a cycle ahead in its idling."""
-    doodles = recording.of(part.device)
-    path = ground_path(doodles, stage)
+    facing: Callable[[GroundPath, Sequence[Span], Repertoire], GroundPath],
+) -> Staged:
+    """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
     spans = timeline(part, float(time_s[0]), float(time_s[-1]))
+    path = facing(ground_path(doodles, stage), spans, pieces)
     moves = course(spans, path, pieces, clock_s=clock_s)
+    placed_doodles = tuple(stage.placed_doodle(doodle) for doodle in doodles)
+    return Staged(part, placed_doodles, pieces, moves, clock_s)
+
+
+def act(staged: Staged, character: Character, time_s: FloatArray, rate_hz: float) -> Actor:
+    """Act out what a performer does, at even times."""
+    pieces, moves, clock_s = staged.pieces, staged.moves, staged.clock_s
     poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
     poses = placed(poses, moves, time_s, rate_hz)
     body = pelvis_of(character.skeleton, pieces.legs) or 0
-    rise = Rise(*raised(list(flights(moves, height_of(doodles, stage), body)), time_s))
+    rise = Rise(*raised(list(flights(moves, height_of(staged.doodles), body)), time_s))
     feet = [leg.foot for leg in pieces.legs]
     stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
     poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz, rise)
     return Actor(
-        device=part.device,
+        device=staged.part.device,
         character=character,
         rotation_xyzw=sign_continuous(poses.rotation_xyzw),
         translation_m=poses.translation_m,
-        doodles=tuple(stage.placed_doodle(doodle) for doodle in doodles),
-        part=part,
+        doodles=staged.doodles,
+        part=staged.part,
     )
 
 
