@@ -46,4 +46,5 @@ def animate(
         score, take, shelf, rate_hz=fps, expressiveness=expressiveness, heading=heading
     )
     smd.write(performance, output)
-    typer.echo(f"{output}: {reading.summary(take, score)}")
+    said = f"{output}: {reading.summary(take, score)}"
+    typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))

@@ -59,6 +59,6 @@ def convert(
         )
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
-        typer.echo("\n".join([said, *(f"  {line}" for line in score.warnings)]))
+        typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
 
     for_each(files, one)

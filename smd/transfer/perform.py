@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Score
 from smd.transfer.acting import acted_contacts, acted_poses
 from smd.transfer.course import course
+from smd.transfer.demands import demands
 from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.facing import HEADINGS
 from smd.transfer.flight import flights, height_of, raised
@@ -67,6 +68,11 @@ def perform(
     heading
         What performers face by, "prop" or "path".
 
+    Returns
+    -------
+    Performance
+        Its Score's warnings are the given one's, and what the doodles ask too much of.
+
     Raises
     ------
     ScoreError
@@ -98,7 +104,10 @@ def perform(
         for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
     ]
     actors = tuple(act(one, library.character, time_s, rate_hz) for one in staged)
-    return Performance(rate_hz, start_s, actors, score)
+    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    # A Score may come from an earlier performance, and have its warnings already.
+    warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
+    return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings))
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
