@@ -46,6 +46,8 @@ class Body:
     every : joints that are rescaled in anything else.
     hinges : elbows and knees, which are never enlarged.
     arms : that two-bone inverse kinematics can turn.
+    pelvis : the joint that holds the legs.
+    pelvis_height_m : over the ground at rest.
     rest_xyzw : (j, 4) how each joint is turned in the world at rest.
     """
 
@@ -57,6 +59,8 @@ class Body:
     every: tuple[int, ...]
     hinges: frozenset[int]
     arms: tuple[Arm, ...]
+    pelvis: int
+    pelvis_height_m: float
     rest_xyzw: FloatArray
 
 
@@ -82,6 +86,8 @@ def body_of(clip: Clip) -> Body:
         every=every,
         hinges=frozenset(limb.middle for limb in plan.limbs),
         arms=tuple(arm for arm in arms if arm),
+        pelvis=plan.root[-1],
+        pelvis_height_m=float(place[plan.root[-1], 1] - place[:, 1].min()),
         rest_xyzw=turned,
     )
 

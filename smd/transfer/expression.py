@@ -25,10 +25,11 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 from smd.transfer.body import Body
 from smd.transfer.easing import smootherstep
-from smd.transfer.operators import at_frames, rescaled, reshaped, retimed, retimed_ends
+from smd.transfer.operators import rescaled, reshaped, retimed, retimed_ends
+from smd.transfer.poses import Poses, mixed
 from smd.transfer.reaching import with_hands_kept
 from smd.transfer.springs import damped, settled, sprung
-from smd.transfer.study import Study
+from smd.transfer.study import Study, retimed_study
 from smd.transfer.timing import (
     ALPHA,
     EVENED,
@@ -80,24 +81,22 @@ def expressive(study: Study, effort: Effort, *, travels: bool) -> Clip:
     time, weight = effort.time or 0.0, effort.weight or 0.0
     space, flow = effort.space or 0.0, effort.flow or 0.0
     clip, body = study.clip, study.body
-    hands, bearing = study.hands_m, study.bearing
     if not (time or weight or space or flow):
         return clip
     if not clip.cyclic:
         source_frame = effort_timing(study, time, weight, flow)
-        hands, bearing = (at_frames(value, source_frame) for value in (hands, bearing))
         if time > 0.0:
-            clip = with_small_beginning(clip, time, body)
-        clip = retimed(clip, source_frame)
+            clip = with_small_beginning(study, time)
+        clip, study = retimed(clip, source_frame), retimed_study(study, source_frame)
     if space:
-        clip = with_space(clip, space, body, bearing)
+        clip = with_space(clip, space, body, study.bearing)
     if weight:
-        clip = with_weight(clip, weight, body, gait=travels and clip.cyclic)
+        clip = with_weight(clip, weight, study, gait=travels and clip.cyclic)
     if flow:
         clip = with_flow(clip, flow, body)
     if weight:
         clip = with_shape(clip, weight, body)
-    return with_hands_kept(clip, body.arms, hands, bearing)
+    return with_hands_kept(clip, body.arms, study.hands_m, study.bearing)
 
 
 def effort_timing(study: Study, time: float, weight: float, flow: float) -> FloatArray:
@@ -118,44 +117,72 @@ def effort_timing(study: Study, time: float, weight: float, flow: float) -> Floa
     return after_waiting(within_pace(source_frame, fastest), busy)
 
 
-def with_small_beginning(clip: Clip, time: float, body: Body) -> Clip:
+def with_small_beginning(study: Study, time: float) -> Clip:
     """Return a sudden clip whose preparation and anticipation are smaller, by 6.4.1.
 
     The paper shrinks those of a sustained clip too; ours keep their size, since one change for
     both poles makes them look alike. The clip comes back to its own size by the end of the
     execution, so that no stage ends in a jump.
     """
+    clip = study.clip
     last = len(clip) - 1
     anticipated, executed = clip.stage_end_frames[1], clip.stage_end_frames[2]
-    shrunk = 1.0 / (3.0 * time + 1.0)
-    back = smootherstep((np.arange(last + 1) - anticipated) / max(executed - anticipated, 1))
     if anticipated == 0:
         return clip
-    return softly_rescaled(clip, body.every, shrunk + (1.0 - shrunk) * back, about=0)
+    shrunk = 1.0 / (3.0 * time + 1.0)
+    back = smootherstep((np.arange(last + 1) - anticipated) / max(executed - anticipated, 1))
+    factor = 1.0 + study.carried * (1.0 - back) * (shrunk - 1.0)
+    return softly_rescaled(clip, study.body.every, factor, poses_at(clip, [0]))
 
 
-def with_weight(clip: Clip, weight: float, body: Body, *, gait: bool) -> Clip:
-    """Return a clip made larger where strong, smaller where light (6.4.2)."""
+def with_weight(clip: Clip, weight: float, study: Study, *, gait: bool) -> Clip:
+    """Return a clip made larger where strong, smaller where light (6.4.2).
+
+    What is scaled is how far it goes from the way that leads from its first pose to its last one,
+    so that who sits down in the end sits, strong or light; and only as long as legs carry it, since
+    nobody falls through the ground, or short of it.
+
+    Parameters
+    ----------
+    study
+        Of the neutral clip, retimed as this one is.
+    """
+    body = study.body
     scale = 1.0 + (STRONGEST_SCALE - 1.0) * weight if weight >= 0.0 else 1.0 / (1.0 - weight)
     joints = body.upper if gait else body.every
     bending = [j for j in joints if weight < 0.0 or j not in body.hinges]
+    factor = np.full(len(clip), scale) if gait else 1.0 + study.carried * (scale - 1.0)
     if clip.cyclic:
-        about, factor = middle_frame(clip), np.full(len(clip), scale)
-    else:
-        about, factor = 0, 1.0 + settled(len(clip), EDGE) * (scale - 1.0)
-    return softly_rescaled(clip, bending, factor, about)
+        return softly_rescaled(clip, bending, factor, poses_at(clip, [middle_frame(clip)]))
+    factor = 1.0 + settled(len(clip), EDGE) * (factor - 1.0)
+    return softly_rescaled(clip, bending, factor, way_across(clip, study.way_m))
 
 
-def softly_rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) -> Clip:
+def poses_at(clip: Clip, frames: Sequence[int]) -> Poses:
+    """Return a clip's poses at some frames, the ground root where the clip has it."""
+    return Poses(clip.rotation_xyzw[list(frames)], clip.translation_m[list(frames)])
+
+
+def way_across(clip: Clip, way_m: FloatArray) -> Poses:
+    """Return poses from a clip's first one to its last, as far on the way as its joints have gone.
+
+    Where both are the same this is that pose.
+    """
+    share = way_m / way_m[-1] if way_m[-1] > 0.0 else np.zeros(len(way_m))
+    ends = poses_at(clip, [0]), poses_at(clip, [len(clip) - 1])
+    first, last = (Poses(*(np.repeat(part, len(clip), axis=0) for part in end)) for end in ends)
+    return mixed(first, last, share)
+
+
+def softly_rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses) -> Clip:
     """Return a clip rescaled in full where it is near to a pose, less the farther it turns away.
 
     The share is the cosine of half the angle: 0.7 at a right angle, nothing at half a turn, where
     the shorter way back changes sides, and beyond which no arm is raised.
     """
     at = list(joints)
-    q = clip.rotation_xyzw[:, at]
-    share = np.abs(np.einsum("nji,ji->nj", q, q[about]))
-    return rescaled(clip, at, 1.0 + (factor - 1.0)[:, None] * share, about)
+    same = np.sum(clip.rotation_xyzw[:, at] * about.rotation_xyzw[:, at], axis=-1)
+    return rescaled(clip, at, 1.0 + (factor - 1.0)[:, None] * np.abs(same), about)
 
 
 def with_shape(clip: Clip, weight: float, body: Body) -> Clip:

@@ -44,6 +44,9 @@ SHORTEST_PLANT = 2
 LETTING_GO_S = 0.25
 """Longest time over which a swinging foot loses the speed that its correction had."""
 
+FORGETTING_S = 0.8
+"""Time over which a foot in the air comes back to where the poses have it; a stride is shorter."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Footing:
@@ -174,10 +177,16 @@ def _evened(value: FloatArray, plants: IntArray, rate_hz: float) -> FloatArray:
     passed, left_over = frames - leave, land - frames
     whole = np.maximum(land - leave, 1)
     within = min(LETTING_GO_S * rate_hz, float(n))
-    share = smootherstep(passed / whole)[:, None]
-    room = np.where((after == 0) | (after == len(plants)), within, np.minimum(whole, within))
+    # In a long flight what was taken out on either side is forgotten on the way.
+    led = np.minimum(whole, FORGETTING_S * rate_hz) if rate_hz else whole
+    outside = (after == 0) | (after == len(plants))
+    start, end = (
+        1.0 - smootherstep(np.where(outside, 0.0, away / led))[:, None]
+        for away in (passed, left_over)
+    )
+    room = np.where(outside, within, np.minimum(whole, within))
     room = np.maximum(room, 1e-9)
-    way = value[leave] + share * (value[land] - value[leave])
+    way = np.where(outside[:, None], value[leave], start * value[leave] + end * value[land])
     way = way + (room * fading(np.abs(passed) / room))[:, None] * speed[leave]
     way = way - (room * fading(np.abs(left_over) / room))[:, None] * speed[land]
     inside = (frames < plants[left, 1]) & (after > 0)

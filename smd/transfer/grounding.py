@@ -24,6 +24,12 @@ SOFTNESS = 0.004
 MOST_SINK_M = 0.12
 """How far the body sinks at most so that a standing leg reaches its foot."""
 
+MOST_BEND_RAD = np.radians(150.0)
+"""Of a knee; a foot that stands nearer to its hip than this allows is not held there."""
+
+MOST_TWIST_RAD = np.radians(70.0)
+"""Of a foot beside where the poses have it pointing: a body that turns farther takes it along."""
+
 FREED_S = 0.12
 """Time from leaving the ground in which a leg comes back to its own length, and as long before it
 lands."""
@@ -66,16 +72,16 @@ def grounded(
     for i, leg in enumerate(legs):
         by = (pivot_rad[:, i], lift_m[:, i], rise.feet_m, rate_hz)
         foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
-        out_of_reach = foot.short_m > MOST_SINK_M
-        if out_of_reach.any():  # let go of the ground earlier, or take hold of it later
-            foot = _put(leg, raw[i], hips[i], stands[:, i] & ~out_of_reach, *by)
+        if not foot.able.all():  # let go of the ground earlier, or take hold of it later
+            foot = _put(leg, raw[i], hips[i], stands[:, i] & foot.able, *by)
         feet.append(foot)
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     pelvis = pelvis_of(skeleton, legs)
     translation[:, pelvis or 0, 1] += rise.body_m
     sunk_m = np.zeros_like(translation[:, 0])
     if pelvis is not None:
-        sunk_m[:, 1] = _sunk(np.max([foot.short_m for foot in feet], axis=0), rate_hz)
+        short_m, room_m = (np.stack(part) for part in zip(*(f[4:] for f in feet), strict=True))
+        sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
         translation[:, pelvis] -= sunk_m
     for i, foot in enumerate(feet):
         hip_m = hips[i] - sunk_m
@@ -101,13 +107,17 @@ class Rise(NamedTuple):
 class _Foot(NamedTuple):
     """Where a foot goes: its rotation and ankle in the world.
 
-    ``short_m`` is how much too high the hip is for the leg to reach a standing foot, 0 otherwise.
+    ``able`` is when the leg can hold it there;
+    ``short_m`` is how much too high the hip is for the leg to reach a standing foot, 0 otherwise;
+    ``room_m`` how far it may sink before the knee of a standing foot is bent too much.
     """
 
     leg: Leg
     rotation_xyzw: FloatArray
     ankle_m: FloatArray
+    able: BoolArray
     short_m: FloatArray
+    room_m: FloatArray
 
 
 def _put(
@@ -127,10 +137,16 @@ def _put(
     ankle_m[:, 1] += np.maximum(risen_m, (LOWEST - 1.0) * sole_height(leg, foot_q, ankle_m))
     reach_m = leg.limb.reach_m * (1.0 - SOFTNESS)
     aside_m = np.hypot(*(hip_m - ankle_m)[:, [0, 2]].T)
-    depth_m = np.sqrt(np.maximum(reach_m**2 - aside_m**2, 0.0))
-    short_m = np.maximum(hip_m[:, 1] - ankle_m[:, 1] - depth_m, 0.0)
-    short_m = np.where(step.stands, short_m, 0.0)
-    return _Foot(leg, foot_q, ankle_m, short_m)
+    above_m = hip_m[:, 1] - ankle_m[:, 1]
+    highest_m, lowest_m = (
+        np.sqrt(np.maximum(span_m**2 - aside_m**2, 0.0))
+        for span_m in (reach_m, leg.limb.span_m(MOST_BEND_RAD))
+    )
+    short_m = np.where(step.stands, np.maximum(above_m - highest_m, 0.0), 0.0)
+    room_m = np.where(step.stands, np.maximum(above_m - lowest_m, 0.0), np.inf)
+    able = (short_m <= MOST_SINK_M) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
+    able &= np.hypot(aside_m, above_m) >= leg.limb.span_m(MOST_BEND_RAD)
+    return _Foot(leg, foot_q, ankle_m, able, short_m, room_m)
 
 
 def _unstretched(
@@ -184,13 +200,23 @@ def _stepping(
     return stepping(place, yaw - pivot_rad, stands, np.array([leg.left_m for leg in legs]), rate_hz)
 
 
-def _sunk(short_m: FloatArray, rate_hz: float) -> FloatArray:
-    """Return how far the body sinks ``(n,)`` for every standing foot to be within reach."""
-    need_m = np.minimum(short_m, MOST_SINK_M)
+def _sunk(short_m: FloatArray, room_m: FloatArray, rate_hz: float) -> FloatArray:
+    """Return how far the body sinks ``(n,)`` for every standing foot to be within reach.
+
+    Parameters
+    ----------
+    short_m, room_m
+        ``(n,)`` how far it has to, and how far it may before a knee is bent too much.
+    """
     around = int(np.ceil(SINKING_S * rate_hz))
-    padded = np.pad(need_m, around, mode="edge")
-    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * around + 1).max(axis=-1)
-    return gaussian_smoothed(highest, SINKING_S / 3.0 * rate_hz)
+
+    def eased(value: FloatArray) -> FloatArray:
+        padded = np.pad(value, around, mode="edge")
+        highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * around + 1).max(axis=-1)
+        return gaussian_smoothed(highest, SINKING_S / 3.0 * rate_hz)
+
+    needed = eased(np.minimum(short_m, MOST_SINK_M))
+    return np.minimum(needed, -eased(-np.minimum(room_m, MOST_SINK_M)))
 
 
 def _bring(skeleton: Skeleton, foot: _Foot, rotation: FloatArray, translation: FloatArray) -> None:

@@ -96,7 +96,8 @@ def gesture(
     """
     if piece.clip.cyclic:
         cycles = max(round((end_s - start_s) / piece.clip.duration_s), 1)
-        pacing = Pacing(start_s, end_s, cycles * piece.last_frame)
+        whole = np.array([0.0, cycles * piece.last_frame])
+        pacing = Pacing(np.array([start_s, end_s]), whole)
     else:
         pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
     time_s = knots(start_s, pacing.end_s)

@@ -25,6 +25,7 @@ from smd.geometry.rotations import (
     rotate,
     rotvec_from_quaternion,
 )
+from smd.transfer.poses import Poses
 
 SOFT = 0.1
 """Of a power law's time: without it, a power of time has no speed, or all of it, at its start."""
@@ -99,7 +100,7 @@ def softened_power(u: FloatArray, exponent: float) -> FloatArray:
     return ((u + SOFT) ** exponent - low) / (high - low)
 
 
-def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) -> Clip:
+def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses) -> Clip:
     """Return a clip whose joints go so many times as far from a pose, by equation (7).
 
     Parameters
@@ -111,16 +112,14 @@ def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: int) 
         change smoothly, since a jump of it is one of the pose; and let it be 1 where a joint is
         half a turn away from the pose, since there its way back changes sides.
     about
-        The frame whose pose it is scaled about: the first one of a stage.
+        The pose it is scaled about, a single one or one a frame: the first one of a stage.
     """
     at = np.asarray(joints, dtype=np.int64)
     rotation, translation = clip.rotation_xyzw.copy(), clip.translation_m.copy()
-    first = rotation[about, at]
-    own = rotation[:, at]
-    from_first = rotvec_from_quaternion(multiply(own, inverse(first)))
+    first, place = about.rotation_xyzw[:, at], about.translation_m[:, at]
+    from_first = rotvec_from_quaternion(multiply(rotation[:, at], inverse(first)))
     factor = factor.reshape(len(clip), -1, 1)
     rotation[:, at] = multiply(quaternion_from_rotvec(factor * from_first), first)
-    place = translation[about, at]
     translation[:, at] = place + factor * (translation[:, at] - place)
     return replace(clip, rotation_xyzw=rotation, translation_m=translation)
 

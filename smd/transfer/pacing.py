@@ -1,9 +1,10 @@
 """Pacing: how fast a clip that is played once goes, and when it is left.
 
-A phrase is what the player's hand did; a clip also shows how the body comes back from it. Played
-within the phrase from end to end, most clips would be twice as fast as they were made. So only
-what they are about has to be done by the phrase's end; the body comes back in the pause that
-follows, as far as there is one, and a transition does the rest.
+A phrase is what the player's hand did, and the strike has to come when the hand's did: so far a
+clip goes evenly through the phrase, as in the paper. But a clip also shows how the body comes back,
+and most would do that twice as fast as they were made. So what follows the execution takes its own
+time: the body comes back in the pause after the phrase, as far as there is one, and a transition
+does the rest.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from smd.character.clip import STAGES, Clip
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import inverse, rotate
+from smd.transfer.easing import gaussian_smoothed
 
 NEAR_M = 0.2
 """Mean distance of the joints from where a clip's last pose has them, up to which a transition
@@ -23,26 +25,36 @@ does the rest: a raised arm comes down, but nobody gets up in it."""
 RECOVERING = 0.6
 """Share of a pause in which a body may come back; then it is at rest."""
 
-_FOLLOW_THROUGH = STAGES.index("follow_through")
+EASED_S = 0.04
+"""Over which the pace changes."""
+
+_EXECUTION, _FOLLOW_THROUGH = (STAGES.index(name) for name in ("execution", "follow_through"))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Pacing:
     """When each frame of a clip is shown.
 
     Attributes
     ----------
-    start_s, end_s : of the move; it may end later than its phrase.
-    left_frame : the frame, fractional, at which the clip is left.
+    time_s : (k,) increasing, from the move's start to its end, which may be after its phrase's.
+    frame : (k,) of the clip, fractional; the last is the one at which it is left.
     """
 
-    start_s: float
-    end_s: float
-    left_frame: float
+    time_s: FloatArray
+    frame: FloatArray
+
+    @property
+    def end_s(self) -> float:
+        """When the clip is left."""
+        return float(self.time_s[-1])
 
     def frame_at(self, time_s: FloatArray) -> FloatArray:
-        """Return the clip's fractional frame at some times."""
-        return (time_s - self.start_s) * (self.left_frame / (self.end_s - self.start_s))
+        """Return the clip's fractional frame ``(n,)`` at even times from the start to the end."""
+        frame = np.interp(time_s, self.time_s, self.frame)
+        if len(self.time_s) == 2:
+            return frame
+        return gaussian_smoothed(frame, EASED_S * (len(time_s) - 1) / (time_s[-1] - time_s[0]))
 
 
 def core_frame(clip: Clip) -> int:
@@ -72,10 +84,11 @@ def near_share(clip: Clip, position_m: FloatArray) -> float:
 def paced(clip: Clip, near: float, start_s: float, end_s: float, pause_s: float) -> Pacing:
     """Return when each frame of a clip is shown in a phrase.
 
-    A clip that is shorter than its phrase is stretched. One that is longer goes at its own pace,
-    if what it is about is done by the phrase's end, and its pose near to its last one by the end
-    of that share of the pause in which a body may come back; else as much faster as it must. What
-    is then left of it is not shown.
+    A clip that is shorter than its phrase is stretched evenly. One that is longer goes evenly too,
+    until its execution ends; from there it takes its own time, if its follow-through is done by
+    the phrase's end, and its pose near to its last one by the end of that share of the pause in
+    which a body may come back; else it is as much faster as it must. What is then left of it is
+    not shown.
 
     Parameters
     ----------
@@ -84,11 +97,15 @@ def paced(clip: Clip, near: float, start_s: float, end_s: float, pause_s: float)
     pause_s
         How long nothing is performed after the phrase.
     """
-    lasting_s, last, core = end_s - start_s, len(clip) - 1, core_frame(clip)
-    if clip.duration_s <= lasting_s or core == last:
-        return Pacing(start_s, end_s, last)
-    whole_s = lasting_s + RECOVERING * pause_s
+    lasting_s, last = end_s - start_s, len(clip) - 1
+    struck, core = int(clip.stage_end_frames[_EXECUTION]), core_frame(clip)
+    if clip.duration_s <= lasting_s or struck == last:
+        return Pacing(np.array([start_s, end_s]), np.array([0.0, last]))
+    struck_s = lasting_s * struck / last
+    rest_s = lasting_s - struck_s
+    whole_s = rest_s + RECOVERING * pause_s
     needed = core + near * (last - core)
-    pace_hz = max(clip.rate_hz, core / lasting_s, needed / whole_s)
-    left = min(pace_hz * whole_s, float(last))
-    return Pacing(start_s, start_s + left / pace_hz, left)
+    pace_hz = max(clip.rate_hz, (core - struck) / rest_s, (needed - struck) / whole_s)
+    left = min(struck + pace_hz * whole_s, float(last))
+    left_s = struck_s + (left - struck) / pace_hz
+    return Pacing(start_s + np.array([0.0, struck_s, left_s]), np.array([0.0, struck, left]))

@@ -15,7 +15,7 @@ from smd.character.kinematics import forward_kinematics
 from smd.errors import TransferError
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion, slerp
 from smd.transfer.body import Arm, body_of
-from smd.transfer.expression import effort_timing, expressive
+from smd.transfer.expression import effort_timing, expressive, poses_at
 from smd.transfer.operators import rescaled, reshaped, retimed, softened_power, stage_timing
 from smd.transfer.reaching import ArmPose, arm_poses, with_hand_moved
 from smd.transfer.repertoire import piece_name, played_effort
@@ -138,14 +138,14 @@ def test_a_cycle_still_closes(name):
 def test_equation_7_with_one_nothing_and_a_half():
     clip, joints = LIBRARY.clip("throw"), [3, 9, 12]
     n = len(clip)
-    same(rescaled(clip, joints, np.ones(n), 10), clip)
-    none = rescaled(clip, joints, np.zeros(n), 10)
+    same(rescaled(clip, joints, np.ones(n), poses_at(clip, [10])), clip)
+    none = rescaled(clip, joints, np.zeros(n), poses_at(clip, [10]))
     for joint in joints:
         first = np.broadcast_to(clip.rotation_xyzw[10, joint], (n, 4))
         np.testing.assert_allclose(
             np.abs(np.sum(none.rotation_xyzw[:, joint] * first, axis=-1)), 1.0, atol=1e-12
         )
-    half = rescaled(clip, joints, np.full(n, 0.5), 10).rotation_xyzw[:, joints]
+    half = rescaled(clip, joints, np.full(n, 0.5), poses_at(clip, [10])).rotation_xyzw[:, joints]
     first = np.broadcast_to(clip.rotation_xyzw[10, joints], half.shape)
     between = slerp(first, clip.rotation_xyzw[:, joints], np.full(half.shape[:-1], 0.5))
     np.testing.assert_allclose(np.abs(np.sum(half * between, axis=-1)), 1.0, atol=1e-9)
@@ -157,7 +157,21 @@ def test_equation_7_does_not_mind_a_quaternion_s_sign():
     clip = LIBRARY.clip("punch")
     flipped = replace(clip, rotation_xyzw=-clip.rotation_xyzw)
     factor = np.linspace(0.2, 1.2, len(clip))
-    same(rescaled(flipped, BODY.every, factor, 0), rescaled(clip, BODY.every, factor, 0), 1e-9)
+    one, other = (rescaled(c, BODY.every, factor, poses_at(clip, [0])) for c in (flipped, clip))
+    same(one, other, 1e-9)
+
+
+@pytest.mark.parametrize("weight", [-1.0, -0.5, 0.5, 1.0])
+def test_who_sits_down_sits_and_who_falls_lies_on_the_ground(weight):
+    for name in ("sit_down", "stand_up", "fall", "roll", "crouch", "pick_up", "jump"):
+        clip, neutral = played(name, 0.0, weight), LIBRARY.clip(name)
+        pelvis = clip.skeleton.index("hips")
+        high, own = clip.translation_m[:, pelvis, 1], neutral.translation_m[:, pelvis, 1]
+        assert high[[0, -1]] == pytest.approx(own[[0, -1]])
+        assert high.min() > min(own.min(), 0.3) - 0.005
+        assert high.max() < max(own.max(), 0.96) * 1.06
+        if name in ("sit_down", "stand_up", "fall", "roll"):
+            assert high.min() < own.min() + 0.01
 
 
 def test_equation_6_without_change_is_the_clip():
