@@ -15,16 +15,15 @@ from smd.character.skeleton import Skeleton
 from smd.doodle import Recording
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
-from smd.score import Score
 from smd.transfer.acting import acted_contacts, own_poses, rows_of
 from smd.transfer.legs import feet_of, legs_of
 from smd.transfer.move import Move
 from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
-from smd.transfer.perform import idling_aheads, moves_of
+from smd.transfer.perform import entrances
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
-from smd.transfer.repertoire import Piece, repertoire
+from smd.transfer.repertoire import Piece
 from smd.transfer.stage import stage_for
 from smd.transfer.standing import standing
 
@@ -84,21 +83,17 @@ class Played(NamedTuple):
         return Poses(self.actor.rotation_xyzw, self.actor.translation_m)
 
 
-def played(
-    performance: Performance, score: Score, recording: Recording, library: Library
-) -> Iterator[Played]:
+def played(performance: Performance, recording: Recording, library: Library) -> Iterator[Played]:
     """Yield the actors of a performance, in full Effort, with their moves."""
+    score = performance.score
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    phrases = [phrase for part in score.performers for phrase in part.phrases]
-    pieces = repertoire(library, phrases, expressiveness=1.0)
-    feet = tuple(leg.foot for leg in pieces.legs)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
-    for actor, ahead in zip(performance.actors, idling_aheads(), strict=False):
-        clock_s = float(time_s[0]) - ahead * pieces.idle.clip.duration_s
-        moves = moves_of(actor.part, recording, stage, pieces, time_s, clock_s=clock_s)
-        stands, _ = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
+    staged = entrances(score, recording, library, time_s, expressiveness=1.0, heading="prop")
+    for actor, one in zip(performance.actors, staged, strict=True):
+        idle, feet = one.pieces.idle, tuple(leg.foot for leg in one.pieces.legs)
+        stands, _ = acted_contacts(one.moves, time_s, idle, feet, clock_s=one.clock_s)
         path = ground_path(recording.of(actor.device), stage)
-        yield Played(actor, time_s, moves, pieces.idle, clock_s, path, feet, stands)
+        yield Played(actor, time_s, one.moves, idle, one.clock_s, path, feet, stands)
 
 
 def measured_feet(

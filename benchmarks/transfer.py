@@ -126,7 +126,7 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
     }
     for recording, score in casts:
         performance = animate(score, recording, library, rate_hz=RATE_HZ)
-        for seen in quality.played(performance, score, recording, library):
+        for seen in quality.played(performance, recording, library):
             skeleton = seen.actor.character.skeleton
             feet.append(
                 quality.measured_feet(skeleton, seen.poses, seen.feet, seen.stands, RATE_HZ)

@@ -156,6 +156,7 @@ def animate(
     *,
     rate_hz: float = 24.0,
     expressiveness: float = 1.0,
+    heading: str = "prop",
 ) -> Performance:
     """Act out a Score: each device a character, each phrase an action on the doodle's path.
 
@@ -172,6 +173,8 @@ def animate(
         true speed there.
     expressiveness
         How much of the Score's Effort is played, from 0 (neutral clips) to 2.
+    heading
+        What characters face by: "prop", where the prop faces, or "path", where it goes.
 
     Raises
     ------
@@ -182,4 +185,11 @@ def animate(
     """
     from smd.transfer.perform import perform
 
-    return perform(score, recording, library, rate_hz=rate_hz, expressiveness=expressiveness)
+    return perform(
+        score,
+        recording,
+        library,
+        rate_hz=rate_hz,
+        expressiveness=expressiveness,
+        heading=heading,
+    )

@@ -20,6 +20,7 @@ def animate(
     library: reading.LibraryFolder = None,
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
+    heading: reading.Heading = reading.HeadingName.PROP,
 ) -> None:
     """Act out a Score, perhaps corrected by hand.
 
@@ -41,8 +42,9 @@ def animate(
     if library is None and score.library:
         library = score_file.parent / score.library
     shelf = smd.load_library(library)
-    performance = smd.animate(score, take, shelf, rate_hz=fps, expressiveness=expressiveness)
+    performance = smd.animate(
+        score, take, shelf, rate_hz=fps, expressiveness=expressiveness, heading=heading
+    )
     smd.write(performance, output)
-    typer.echo(f"{output}: {reading.summary(take, score)}")
-    for line in performance.score.warnings[len(score.warnings) :]:
-        typer.echo(f"  {line}")
+    said = f"{output}: {reading.summary(take, score)}"
+    typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))

@@ -25,6 +25,7 @@ def convert(
     tolerance: reading.Tolerance = 1.0,
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
+    heading: reading.Heading = reading.HeadingName.PROP,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -54,7 +55,7 @@ def convert(
     def one(index: int, file: Path) -> None:
         recording, score = understood(file)
         performance = smd.animate(
-            score, recording, shelf, rate_hz=fps, expressiveness=expressiveness
+            score, recording, shelf, rate_hz=fps, expressiveness=expressiveness, heading=heading
         )
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -67,6 +68,19 @@ Expressiveness = Annotated[
         min=0.0,
         max=2.0,
     ),
+]
+
+
+class HeadingName(StrEnum):
+    """What characters face by."""
+
+    PROP = "prop"
+    PATH = "path"
+
+
+Heading = Annotated[
+    HeadingName,
+    typer.Option(help="What characters face by: prop, where it faces, or path, where it goes."),
 ]
 FramesPerSecond = Annotated[
     float, typer.Option("--fps", help="Frames per second of the animation.", min=1.0, max=240.0)

@@ -12,8 +12,9 @@ from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 from smd.transfer.easing import gaussian_smoothed, smootherstep
+from smd.transfer.flight import LOWEST
 from smd.transfer.footing import footing
-from smd.transfer.legs import Leg, world_of, yaw_of
+from smd.transfer.legs import Leg, pelvis_of, sole_height, world_of, yaw_of
 from smd.transfer.poses import Poses
 from smd.transfer.stepping import stepping
 
@@ -44,6 +45,7 @@ def grounded(
     pivot_rad: FloatArray,
     legs: Sequence[Leg],
     rate_hz: float,
+    rise: Rise | None = None,
 ) -> Poses:
     """Return poses whose feet stand still where they should, and are never in the ground.
 
@@ -55,19 +57,24 @@ def grounded(
         ``(n, legs)`` when each foot should stand.
     pivot_rad
         ``(n, legs)`` how far each has turned by the clips' own will.
+    rise
+        How much higher than the poses body and feet go.
     """
+    rise = rise or Rise(*np.zeros((2, len(stands))))
     raw = [world_of(skeleton, leg.foot, *poses) for leg in legs]
-    hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]
+    own_hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]
+    hips = [hip_m + rise.body_m[:, None] * [0.0, 1.0, 0.0] for hip_m in own_hips]
     stands, lift_m = _stepping(legs, raw, stands, pivot_rad, rate_hz)
     feet = []
     for i, leg in enumerate(legs):
-        by = (pivot_rad[:, i], lift_m[:, i], rate_hz)
+        by = (pivot_rad[:, i], lift_m[:, i], rise.feet_m, rate_hz)
         foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
         if not foot.able.all():  # let go of the ground earlier, or take hold of it later
             foot = _put(leg, raw[i], hips[i], stands[:, i] & foot.able, *by)
         feet.append(foot)
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
-    pelvis = _pelvis(skeleton, legs)
+    pelvis = pelvis_of(skeleton, legs)
+    translation[:, pelvis or 0, 1] += rise.body_m
     sunk_m = np.zeros_like(translation[:, 0])
     if pelvis is not None:
         short_m, room_m = (np.stack(part) for part in zip(*(f[4:] for f in feet), strict=True))
@@ -78,6 +85,18 @@ def grounded(
         offset_m = _loosened(foot.ankle_m - own_m, stands[:, i], rate_hz)
         _bring(skeleton, foot._replace(ankle_m=own_m + offset_m), rotation, translation)
     return Poses(rotation, translation)
+
+
+class Rise(NamedTuple):
+    """How much higher than in the poses a body is, and its feet are.
+
+    Attributes
+    ----------
+    body_m, feet_m : (n,) in metres.
+    """
+
+    body_m: FloatArray
+    feet_m: FloatArray
 
 
 class _Foot(NamedTuple):
@@ -103,12 +122,14 @@ def _put(
     stands: BoolArray,
     pivot_rad: FloatArray,
     lift_m: FloatArray,
+    risen_m: FloatArray,
     rate_hz: float,
 ) -> _Foot:
     """Take the sliding out of a foot, and see whether its leg reaches it."""
     step = footing(leg, *raw, stands, pivot_rad, lift_m, rate_hz)
     about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
-    ankle_m = raw[1] + step.shift_m
+    foot_q, ankle_m = multiply(about, raw[0]), raw[1] + step.shift_m
+    ankle_m[:, 1] += np.maximum(risen_m, (LOWEST - 1.0) * sole_height(leg, foot_q, ankle_m))
     reach_m = leg.limb.reach_m * (1.0 - SOFTNESS)
     aside_m = np.hypot(*(hip_m - ankle_m)[:, [0, 2]].T)
     above_m = hip_m[:, 1] - ankle_m[:, 1]
@@ -120,7 +141,7 @@ def _put(
     room_m = np.where(step.stands, np.maximum(above_m - lowest_m, 0.0), np.inf)
     able = (short_m <= MOST_SINK_M) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
     able &= np.hypot(aside_m, above_m) >= leg.limb.span_m(MOST_BEND_RAD)
-    return _Foot(leg, multiply(about, raw[0]), ankle_m, able, short_m, room_m)
+    return _Foot(leg, foot_q, ankle_m, able, short_m, room_m)
 
 
 def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:
@@ -167,18 +188,6 @@ def _stepping(
     place = np.stack([ball[:, [0, 2]] for ball in balls], axis=1)
     yaw = np.stack([yaw_of(leg, q) for leg, (q, _) in zip(legs, raw, strict=True)], axis=1)
     return stepping(place, yaw - pivot_rad, stands, np.array([leg.left_m for leg in legs]), rate_hz)
-
-
-def _pelvis(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:
-    """Return the joint below the root that holds all legs, if there is one."""
-    holders = set()
-    for leg in legs:
-        joint = leg.upper
-        while skeleton.parents[joint] > 0:
-            joint = int(skeleton.parents[joint])
-        holders.add(joint)
-    holders -= {leg.upper for leg in legs}
-    return holders.pop() if len(holders) == 1 else None
 
 
 def _sunk(short_m: FloatArray, room_m: FloatArray, rate_hz: float) -> FloatArray:

@@ -132,3 +132,22 @@ def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
     along, up = rotate(foot_xyzw, ahead), rotate(foot_xyzw, leg.up)
     along = along - along[:, 1:2] ** 3 * up
     return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
+
+
+def pelvis_of(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:
+    """Return the joint below the root that holds all legs, if there is one."""
+    holders = set()
+    for leg in legs:
+        joint = leg.upper
+        while skeleton.parents[joint] > 0:
+            joint = int(skeleton.parents[joint])
+        holders.add(joint)
+    holders -= {leg.upper for leg in legs}
+    return holders.pop() if len(holders) == 1 else None
+
+
+def sole_height(leg: Leg, foot_xyzw: FloatArray, ankle_m: FloatArray) -> FloatArray:
+    """Return how high over the level ground a sole is ``(n,)``: its heel or its ball."""
+    heel_m = ankle_m[:, 1] + rotate(foot_xyzw, leg.heel_m)[:, 1]
+    ball_m = ankle_m[:, 1] + rotate(foot_xyzw, leg.ball_m)[:, 1] - leg.ball_height_m
+    return np.minimum(heel_m, ball_m)

@@ -4,30 +4,33 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from actions_library.library import Library
 from smd.character.character import Character
-from smd.doodle import Recording
+from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Score
 from smd.transfer.acting import acted_contacts, acted_poses
-from smd.transfer.cautions import hurried
 from smd.transfer.course import course
+from smd.transfer.demands import demands
 from smd.transfer.easing import gaussian_smoothed
-from smd.transfer.grounding import grounded
+from smd.transfer.facing import HEADINGS
+from smd.transfer.flight import flights, height_of, raised
+from smd.transfer.grounding import Rise, grounded
+from smd.transfer.legs import pelvis_of
 from smd.transfer.move import Move
-from smd.transfer.path import ground_path
+from smd.transfer.path import GroundPath, ground_path
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Repertoire, repertoire
 from smd.transfer.stage import Stage, stage_for
-from smd.transfer.timeline import timeline
+from smd.transfer.timeline import Span, timeline
 
 RATE_HZ = 24.0
 """Frames per second: film's, and what Blender's importer leaves its scene at."""
@@ -46,6 +49,7 @@ def perform(
     *,
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
+    heading: str = "prop",
 ) -> Performance:
     """Act out a Score.
 
@@ -61,19 +65,28 @@ def perform(
         Frames per second, positive.
     expressiveness
         How much of the phrases' Effort is played, from 0 (neutral clips) to 2.
+    heading
+        What performers face by, "prop" or "path".
+
+    Returns
+    -------
+    Performance
+        Its Score's warnings are the given one's, and what the doodles ask too much of.
 
     Raises
     ------
     ScoreError
         If an action, a device or a time is not there.
     TransferError
-        If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2, or
-        the Score has no performers.
+        If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2,
+        ``heading`` is neither, or the Score has no performers.
     """
     if not 0.0 <= expressiveness <= 2.0:
         raise TransferError(f"expressiveness: expected 0 to 2, got {expressiveness!r}")
     if not (np.isfinite(rate_hz) and rate_hz > 0):
         raise TransferError(f"rate_hz: expected a positive number, got {rate_hz!r}")
+    if heading not in HEADINGS:
+        raise TransferError(f"heading: expected {' or '.join(HEADINGS)}, got {heading!r}")
     if not score.performers:
         raise TransferError("score: expected at least one performer, got none")
     for part in score.performers:
@@ -83,16 +96,14 @@ def perform(
     # + 1e-6: a duration of whole frames may come out a hair short.
     frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
     time_s = start_s + np.arange(frames) / rate_hz
-    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    phrases = [phrase for part in score.performers for phrase in part.phrases]
-    pieces = repertoire(library, phrases, expressiveness=expressiveness)
-    actors = tuple(
-        act(part, recording, stage, library.character, pieces, time_s, rate_hz, ahead)
-        for part, ahead in zip(score.performers, idling_aheads(), strict=False)
+    staged = entrances(
+        score, recording, library, time_s, expressiveness=expressiveness, heading=heading
     )
-    cautions = [line for part in score.performers for line in hurried(part, pieces)]
-    said = replace(score, warnings=(*score.warnings, *cautions))
-    return Performance(rate_hz, start_s, actors, said)
+    actors = tuple(act(one, library.character, time_s, rate_hz) for one in staged)
+    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    # A Score may come from an earlier performance, and have its warnings already.
+    warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
+    return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings))
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
@@ -120,56 +131,87 @@ def check_part(part: Part, recording: Recording, library: Library) -> None:
             )
 
 
-def act(
-    part: Part,
+@dataclass(frozen=True, slots=True, eq=False)
+class Staged:
+    """A performer that knows where it goes and what it does there.
+
+    Attributes
+    ----------
+    part : what it performs.
+    doodles : at stage scale.
+    pieces : what it can do.
+    moves : one after the other, from the first frame to the last.
+    clock_s : when its idling began.
+    """
+
+    part: Part
+    doodles: tuple[Doodle, ...]
+    pieces: Repertoire
+    moves: tuple[Move, ...]
+    clock_s: float
+
+
+def entrances(
+    score: Score,
     recording: Recording,
+    library: Library,
+    time_s: FloatArray,
+    *,
+    expressiveness: float,
+    heading: str,
+) -> list[Staged]:
+    """Lay out what each performer does from the first of some times to the last.
+
+    Parameters are those of `perform`.
+    """
+    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
+    phrases = [phrase for part in score.performers for phrase in part.phrases]
+    pieces = repertoire(library, phrases, expressiveness=expressiveness)
+    return [
+        enter(part, recording.of(part.device), stage, pieces, time_s, ahead, HEADINGS[heading])
+        for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
+    ]
+
+
+def enter(
+    part: Part,
+    doodles: Sequence[Doodle],
     stage: Stage,
-    character: Character,
     pieces: Repertoire,
     time_s: FloatArray,
-    rate_hz: float,
     idling_ahead: float,
-) -> Actor:
-    """Act out one part at even times, ``idling_ahead`` of a cycle ahead in its idling."""
+    facing: Callable[[GroundPath, Sequence[Span], Repertoire], GroundPath],
+) -> Staged:
+    """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
-    moves = moves_of(part, recording, stage, pieces, time_s, clock_s=clock_s)
+    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
+    path = facing(ground_path(doodles, stage), spans, pieces)
+    moves = course(spans, path, pieces, clock_s=clock_s)
+    placed_doodles = tuple(stage.placed_doodle(doodle) for doodle in doodles)
+    return Staged(part, placed_doodles, pieces, moves, clock_s)
+
+
+def act(staged: Staged, character: Character, time_s: FloatArray, rate_hz: float) -> Actor:
+    """Act out what a performer does, at even times."""
+    pieces, moves, clock_s = staged.pieces, staged.moves, staged.clock_s
     poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
     poses = placed(poses, moves, time_s, rate_hz)
+    body = pelvis_of(character.skeleton, pieces.legs) or 0
+    rise = Rise(*raised(list(flights(moves, height_of(staged.doodles), body)), time_s))
     feet = [leg.foot for leg in pieces.legs]
     stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
-    poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz)
+    poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz, rise)
     return Actor(
-        device=part.device,
+        device=staged.part.device,
         character=character,
         rotation_xyzw=sign_continuous(poses.rotation_xyzw),
         translation_m=poses.translation_m,
-        doodles=tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device)),
-        part=part,
+        doodles=staged.doodles,
+        part=staged.part,
     )
 
 
-def moves_of(
-    part: Part,
-    recording: Recording,
-    stage: Stage,
-    pieces: Repertoire,
-    time_s: FloatArray,
-    *,
-    clock_s: float,
-) -> tuple[Move, ...]:
-    """Return the moves of one part, from the first of some times to the last.
-
-    Parameters
-    ----------
-    clock_s
-        Time at which its idling began.
-    """
-    path = ground_path(recording.of(part.device), stage)
-    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    return course(spans, path, pieces, clock_s=clock_s)
-
-
-def idling_aheads() -> Iterator[float]:
+def _idling_ahead() -> Iterator[float]:
     """Return how far ahead each performer is in its idling, so that no two breathe as one."""
     golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
     return (golden * i % 1.0 for i in itertools.count())
