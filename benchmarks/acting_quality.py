@@ -13,7 +13,7 @@ from smd.character.clip import Clip
 from smd.character.kinematics import joints_in_world
 from smd.character.skeleton import Skeleton
 from smd.doodle import Recording
-from smd.geometry.arrays import BoolArray, FloatArray, IntArray
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
 from smd.transfer.acting import acted_contacts, own_poses, rows_of
 from smd.transfer.legs import feet_of, legs_of
@@ -32,6 +32,9 @@ LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
 
 ON_GROUND_M = 0.005
 """Height of a sole up to which it is on the ground."""
+
+RATE_HZ = 60.0
+"""Frames a second of all that is measured."""
 
 POP_DEG = 8.0
 """A turn of a joint from one frame to the next, at 60 Hz, that its clip does not have."""
@@ -116,6 +119,32 @@ def measured_feet(
             labelled.append(_speeds(point, on & bears & (up < ON_GROUND_M), rate_hz))
         toes.append(_speeds(ball, ball[:, 1] < LOW_TOES_M, rate_hz))
     return Feet(np.concatenate(labelled), np.concatenate(near), np.concatenate(toes), lowest)
+
+
+def toes_of_clips_m_s(seen: Played) -> FloatArray:
+    """Return speeds of low toes as the clips have them, played as fast as they are here.
+
+    A clip that is played twice as fast has toes twice as fast: what is beyond that is transfer's.
+    """
+    legs = legs_of(seen.actor.character.skeleton, seen.feet)
+    found = [np.zeros(0)]
+    for move, rows in zip(seen.moves, rows_of(seen.moves, seen.time_s), strict=True):
+        if rows.stop - rows.start < 2:
+            continue
+        clip, last = move.piece.clip, move.piece.last_frame
+        frame = move.frame_at(seen.time_s[rows])
+        middle = 0.5 * (frame[1:] + frame[:-1])
+        middle = np.mod(middle, last) if clip.cyclic else np.clip(middle, 0.0, last)
+        pace = np.diff(frame) * move.presence_at(seen.time_s[rows])[1:]
+        local = clip.rotation_xyzw, clip.translation_m
+        foot_q, ankle = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+        for i, leg in enumerate(legs):
+            ball = ankle[:, i] + rotate(foot_q[:, i], leg.ball_m)
+            steps = np.hypot(*np.diff(ball, axis=0)[:, [0, 2]].T)  # a frame of the clip
+            speed = np.interp(middle, np.arange(len(steps)) + 0.5, steps) * pace * RATE_HZ
+            height = np.interp(middle, np.arange(len(ball)), ball[:, 1])
+            found.append(speed[height < LOW_TOES_M])
+    return np.concatenate(found)
 
 
 def feet_of_clip(clip: Clip) -> Feet | None:
@@ -205,20 +234,21 @@ def pops(seen: Played) -> tuple[int, int, float]:
     return int(np.count_nonzero(excess > POP_DEG)), excess.size, float(excess.max())
 
 
-def accelerations(seen: Played, rate_hz: float) -> tuple[FloatArray, BoolArray]:
-    """Return each joint's angular acceleration ``(m, j)``, deg/s², and which are at a boundary."""
+def accelerations(seen: Played) -> tuple[FloatArray, FloatArray]:
+    """Return the joints' angular accelerations, deg/s², inside phrases and across boundaries.
+
+    Returns
+    -------
+    inside, across
+        ``(m, j)`` each.
+    """
     q = seen.actor.rotation_xyzw[:, 1:]
-    speed = np.degrees(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))) * rate_hz
-    acceleration = np.linalg.norm(np.diff(speed, axis=0), axis=-1) * rate_hz
-    at = np.zeros(len(acceleration), dtype=bool)
-    at[boundary_frames(seen, rate_hz)] = True
-    return acceleration, at
-
-
-def boundary_frames(seen: Played, rate_hz: float) -> IntArray:
-    """Return the rows of `accelerations` that look across a phrase's start or end."""
-    phrases = seen.actor.part.phrases
-    edges_s = np.array([edge for phrase in phrases for edge in (phrase.start_s, phrase.end_s)])
-    frames = np.ceil((edges_s - seen.time_s[0]) * rate_hz).astype(np.int64)
-    rows = np.concatenate([frames - 2, frames - 1])
-    return np.unique(rows[(rows >= 0) & (rows < len(seen.time_s) - 2)])
+    speed = np.degrees(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))) * RATE_HZ
+    acceleration = np.linalg.norm(np.diff(speed, axis=0), axis=-1) * RATE_HZ
+    time_s = seen.time_s[1:-1]
+    acts, at = np.zeros(len(time_s), dtype=bool), np.zeros(len(time_s), dtype=bool)
+    for phrase in seen.actor.part.phrases:
+        acts |= (time_s > phrase.start_s) & (time_s < phrase.end_s)
+        for edge_s in (phrase.start_s, phrase.end_s):
+            at |= np.abs(time_s - edge_s) < 1.0 / RATE_HZ
+    return acceleration[acts & ~at], acceleration[at]
