@@ -9,14 +9,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from actions_library.cast import Cast, cast_of
 from actions_library.library import Library
 from smd.character.character import Character
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
-from smd.score import Part, Score
+from smd.score import Part, Phrase, Score
 from smd.transfer.acting import acted_contacts, acted_poses
+from smd.transfer.company import apart, encounters
 from smd.transfer.course import course
 from smd.transfer.demands import demands
 from smd.transfer.easing import gaussian_smoothed
@@ -45,7 +47,7 @@ TURNING_S = 0.1
 def perform(
     score: Score,
     recording: Recording,
-    library: Library,
+    library: Library | Cast,
     *,
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
@@ -60,7 +62,7 @@ def perform(
     recording
         What the Score was read from; the performance lasts from its first to its last sample.
     library
-        Character and clips.
+        Character and clips; in a `Cast`, each performer's own.
     rate_hz
         Frames per second, positive.
     expressiveness
@@ -77,6 +79,8 @@ def perform(
     ------
     ScoreError
         If an action, a device or a time is not there.
+    LibraryError
+        If a cast has a library for a device that is not in the recording.
     TransferError
         If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2,
         ``heading`` is neither, or the Score has no performers.
@@ -89,25 +93,51 @@ def perform(
         raise TransferError(f"heading: expected {' or '.join(HEADINGS)}, got {heading!r}")
     if not score.performers:
         raise TransferError("score: expected at least one performer, got none")
+    cast = cast_of(library)
+    cast.check(recording.devices)
     for part in score.performers:
-        check_part(part, recording, library)
+        check_part(part, recording, cast.of(part.device))
     start_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
     end_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
     # + 1e-6: a duration of whole frames may come out a hair short.
     frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
     time_s = start_s + np.arange(frames) / rate_hz
-    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    phrases = [phrase for part in score.performers for phrase in part.phrases]
-    pieces = repertoire(library, phrases, expressiveness=expressiveness)
+    stage = stage_for(recording, cast.shared.character.height_m, score.figure_height_m)
+    pieces = repertoires(score, cast, expressiveness)
     staged = [
-        enter(part, recording.of(part.device), stage, pieces, time_s, ahead, HEADINGS[heading])
+        enter(
+            part,
+            recording.of(part.device),
+            stage,
+            pieces[cast.of(part.device)],
+            time_s,
+            ahead,
+            HEADINGS[heading],
+        )
         for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
     ]
-    actors = tuple(act(one, library.character, time_s, rate_hz) for one in staged)
+    devices = [one.part.device for one in staged]
+    heights_m = [cast.of(device).character.height_m for device in devices]
+    alone = [one.moves for one in staged]
+    together = apart(alone, heights_m)
+    staged = [replace(one, moves=moves) for one, moves in zip(staged, together, strict=True)]
+    actors = tuple(act(one, cast.of(one.part.device).character, time_s, rate_hz) for one in staged)
     asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    asked += encounters(devices, alone, together, heights_m)
     # A Score may come from an earlier performance, and have its warnings already.
     warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
     return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings))
+
+
+def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library, Repertoire]:
+    """Return what can be performed with each library of a cast, in this Score."""
+    phrases: dict[Library, list[Phrase]] = {}
+    for part in score.performers:
+        phrases.setdefault(cast.of(part.device), []).extend(part.phrases)
+    return {
+        library: repertoire(library, spoken, expressiveness=expressiveness)
+        for library, spoken in phrases.items()
+    }
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
