@@ -11,7 +11,7 @@ from smd.geometry.arrays import BoolArray, FloatArray
 from smd.transfer.move import Move
 from smd.transfer.poses import Poses, mixed, sampled
 from smd.transfer.repertoire import Piece
-from smd.transfer.transitions import TRANSITION_S, carried_over
+from smd.transfer.transitions import carried_over, transition_s
 
 SEEN = 0.1
 """Presence from which a clip says which feet stand: a foot that swings there must be free early,
@@ -38,7 +38,7 @@ def acted_poses(moves: Sequence[Move], time_s: FloatArray, idle: Piece, *, clock
     pieces: list[Poses] = []
     for i, (move, rows) in enumerate(zip(moves, rows_of(moves, time_s), strict=True)):
         now_s = time_s[rows]
-        poses = _poses(move, now_s, idle, clock_s)
+        poses = own_poses(move, now_s, idle, clock_s)
         if i > 0 and len(now_s) > 0:
             poses = _joined(moves[i - 1], move, poses, now_s, idle, clock_s)
         pieces.append(poses)
@@ -86,7 +86,8 @@ def rows_of(moves: Sequence[Move], time_s: FloatArray) -> list[slice]:
     return [slice(a, b) for a, b in pairwise(edges)]
 
 
-def _poses(move: Move, time_s: FloatArray, idle: Piece, clock_s: float) -> Poses:
+def own_poses(move: Move, time_s: FloatArray, idle: Piece, clock_s: float) -> Poses:
+    """Return a move's poses ``(n, …)`` by itself, without the transition into it."""
     poses = sampled(move.piece.clip, move.frame_at(time_s))
     presence = move.presence_at(time_s)
     faint = np.flatnonzero(presence < 1.0)
@@ -104,18 +105,15 @@ def _joined(
 ) -> Poses:
     """Let the difference to the move before die away over this one's first poses."""
     at_s = before.end_s
-    over_s = min(TRANSITION_S, before.room_s, move.start_s - at_s + move.room_s)
+    ends = (
+        own_poses(before, at_s + np.array([-_STEP_S, 0.0]), idle, clock_s),
+        own_poses(move, at_s + np.array([0.0, _STEP_S]), idle, clock_s),
+    )
+    over_s = min(transition_s(*ends), move.start_s - at_s + move.room_s)
     count = int(np.searchsorted(now_s, at_s + over_s))
     if count == 0:
         return poses
     first = Poses(poses.rotation_xyzw[:count], poses.translation_m[:count])
-    first = carried_over(
-        _poses(before, at_s + np.array([-_STEP_S, 0.0]), idle, clock_s),
-        _poses(move, at_s + np.array([0.0, _STEP_S]), idle, clock_s),
-        first,
-        now_s[:count] - at_s,
-        over_s=over_s,
-        step_s=_STEP_S,
-    )
+    first = carried_over(*ends, first, now_s[:count] - at_s, over_s=over_s, step_s=_STEP_S)
     poses.rotation_xyzw[:count], poses.translation_m[:count] = first
     return poses

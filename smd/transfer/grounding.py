@@ -30,12 +30,9 @@ MOST_BEND_RAD = np.radians(150.0)
 MOST_TWIST_RAD = np.radians(70.0)
 """Of a foot beside where the poses have it pointing: a body that turns farther takes it along."""
 
-FREED_S = 0.12
-"""Time from leaving the ground in which a leg comes back to its own length, and as long before it
-lands."""
-
-BLUNT_M = 0.01
-"""Over which that sets in, so that nothing kinks."""
+FREED_S, LOOSE_M = 0.12, 0.15
+"""Time from leaving the ground in which a foot is free, and as long before it lands; and how far it
+is then led at most from where its leg has it."""
 
 SINKING_S = 0.12
 """How long before and after the body begins and ends to sink."""
@@ -84,11 +81,9 @@ def grounded(
         sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
         translation[:, pelvis] -= sunk_m
     for i, foot in enumerate(feet):
-        hip_m = hips[i] - sunk_m
-        led_m = _unstretched(
-            raw[i][1] - own_hips[i], foot.ankle_m - hip_m, stands[:, i], legs[i], rate_hz
-        )
-        _bring(skeleton, foot._replace(ankle_m=hip_m + led_m), rotation, translation)
+        own_m = raw[i][1] + (hips[i] - own_hips[i]) - sunk_m  # the leg's own, with the body
+        offset_m = _loosened(foot.ankle_m - own_m, stands[:, i], rate_hz)
+        _bring(skeleton, foot._replace(ankle_m=own_m + offset_m), rotation, translation)
     return Poses(rotation, translation)
 
 
@@ -149,28 +144,23 @@ def _put(
     return _Foot(leg, foot_q, ankle_m, able, short_m, room_m)
 
 
-def _unstretched(
-    own_m: FloatArray, moved_m: FloatArray, stands: BoolArray, leg: Leg, rate_hz: float
-) -> FloatArray:
-    """Return where a foot goes, seen from the hip, so that no free leg is longer than its own.
+def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:
+    """Return how far a foot is led from where its leg has it, less where it is free.
 
     Between two stands a foot is led from one place to the other; in a roll or a leap the body
-    goes elsewhere, and the leg would be torn straight on the way.
+    goes elsewhere, and the leg would be torn straight, or drawn through the hip, on the way.
 
     Parameters
     ----------
-    own_m, moved_m
-        ``(n, 3)`` as the poses have it, and as it is led.
+    offset_m
+        ``(n, 3)`` as it is led.
     stands
         When it should stand, on the ground or just above it.
     """
     free = smootherstep(_frames_to(stands) / (FREED_S * rate_hz))
-    own, moved = np.linalg.norm(own_m, axis=-1), np.linalg.norm(moved_m, axis=-1)
-    longest = leg.limb.reach_m + free * (own - leg.limb.reach_m)
-    blunt = BLUNT_M * free + 1e-6
-    over = blunt * np.logaddexp(0.0, (moved - longest) / blunt)
-    over[stands] = 0.0  # the body sinks for those
-    return moved_m * (1.0 - over / np.maximum(moved, 1e-9))[:, None]
+    far = np.linalg.norm(offset_m, axis=-1)
+    share = far * free / LOOSE_M
+    return offset_m / ((1.0 + share**4) ** 0.25)[:, None]
 
 
 def _frames_to(true: BoolArray) -> FloatArray:

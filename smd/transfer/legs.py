@@ -12,7 +12,7 @@ from smd.character.ik import Limb, limb_of
 from smd.character.kinematics import forward_kinematics
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import inverse, multiply, rotate
+from smd.geometry.rotations import inverse, multiply, normalized, rotate
 
 HEEL_BEHIND_ANKLE = 0.37
 """How far the heel is behind the ankle, as a share of the ball's distance ahead of it."""
@@ -27,6 +27,7 @@ class Leg:
     upper, lower, foot : indices of the joints: thigh, shin, foot.
     limb : thigh and shin.
     heel_m, ball_m : (3,) points of the sole, in the foot's frame.
+    up : (3,) unit, where the world's up is in the foot's frame when it stands flat.
     ball_height_m : height over the ground of ``ball_m`` when the foot stands flat.
     left_m : how far to the left the foot is at rest.
     """
@@ -37,6 +38,7 @@ class Leg:
     limb: Limb
     heel_m: FloatArray
     ball_m: FloatArray
+    up: FloatArray
     ball_height_m: float
     left_m: float
 
@@ -97,6 +99,7 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
                 limb=limb_of(skeleton, thigh, shin, end, [0.0, 0.0, 1.0]),
                 heel_m=rotate(back, heel),
                 ball_m=rotate(back, ball),
+                up=rotate(back, np.array([0.0, 1.0, 0.0])),
                 ball_height_m=float(world_p[foot, 1] + ball[1]),
                 left_m=float(world_p[foot, 0]),
             )
@@ -119,8 +122,15 @@ def world_of(
 
 
 def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
-    """Return which way a foot points over the ground, about +Y from +Z, without jumps."""
-    along = rotate(foot_xyzw, leg.ball_m - leg.heel_m)
+    """Return which way a foot points over the ground, about +Y from +Z, without jumps.
+
+    The steeper it is, the more its instep decides: on tiptoe, and beyond, a foot points where the
+    shin's front does.
+    """
+    ahead = leg.ball_m - leg.heel_m
+    ahead = normalized(ahead - (ahead @ leg.up) * leg.up)
+    along, up = rotate(foot_xyzw, ahead), rotate(foot_xyzw, leg.up)
+    along = along - along[:, 1:2] ** 3 * up
     return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Phrase, Score
 from smd.transfer.acting import acted_contacts, acted_poses
+from smd.transfer.cautions import hurried
 from smd.transfer.company import apart, encounters
 from smd.transfer.course import course
 from smd.transfer.demands import demands
@@ -27,12 +28,12 @@ from smd.transfer.flight import flights, height_of, raised
 from smd.transfer.grounding import Rise, grounded
 from smd.transfer.legs import pelvis_of
 from smd.transfer.move import Move
-from smd.transfer.path import GroundPath, ground_path
+from smd.transfer.path import ground_path
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Repertoire, repertoire
 from smd.transfer.stage import Stage, stage_for
-from smd.transfer.timeline import Span, timeline
+from smd.transfer.timeline import timeline
 
 RATE_HZ = 24.0
 """Frames per second: film's, and what Blender's importer leaves its scene at."""
@@ -105,16 +106,8 @@ def perform(
     stage = stage_for(recording, cast.shared.character.height_m, score.figure_height_m)
     pieces = repertoires(score, cast, expressiveness)
     staged = [
-        enter(
-            part,
-            recording.of(part.device),
-            stage,
-            pieces[cast.of(part.device)],
-            time_s,
-            ahead,
-            HEADINGS[heading],
-        )
-        for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
+        enter(part, recording, stage, pieces[cast.of(part.device)], time_s, ahead, heading)
+        for part, ahead in zip(score.performers, idling_aheads(), strict=False)
     ]
     devices = [one.part.device for one in staged]
     heights_m = [cast.of(device).character.height_m for device in devices]
@@ -122,7 +115,8 @@ def perform(
     together = apart(alone, heights_m)
     staged = [replace(one, moves=moves) for one, moves in zip(staged, together, strict=True)]
     actors = tuple(act(one, cast.of(one.part.device).character, time_s, rate_hz) for one in staged)
-    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    asked = [line for one in staged for line in hurried(one.part, one.pieces)]
+    asked += [line for one in staged for line in demands(one.part.device, one.moves)]
     asked += encounters(devices, alone, together, heights_m)
     # A Score may come from an earlier performance, and have its warnings already.
     warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
@@ -187,20 +181,18 @@ class Staged:
 
 def enter(
     part: Part,
-    doodles: Sequence[Doodle],
+    recording: Recording,
     stage: Stage,
     pieces: Repertoire,
     time_s: FloatArray,
     idling_ahead: float,
-    facing: Callable[[GroundPath, Sequence[Span], Repertoire], GroundPath],
+    heading: str,
 ) -> Staged:
     """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
-    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    path = facing(ground_path(doodles, stage), spans, pieces)
-    moves = course(spans, path, pieces, clock_s=clock_s)
-    placed_doodles = tuple(stage.placed_doodle(doodle) for doodle in doodles)
-    return Staged(part, placed_doodles, pieces, moves, clock_s)
+    moves = moves_of(part, recording, stage, pieces, time_s, clock_s=clock_s, heading=heading)
+    doodles = tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device))
+    return Staged(part, doodles, pieces, moves, clock_s)
 
 
 def act(staged: Staged, character: Character, time_s: FloatArray, rate_hz: float) -> Actor:
@@ -223,7 +215,31 @@ def act(staged: Staged, character: Character, time_s: FloatArray, rate_hz: float
     )
 
 
-def _idling_ahead() -> Iterator[float]:
+def moves_of(
+    part: Part,
+    recording: Recording,
+    stage: Stage,
+    pieces: Repertoire,
+    time_s: FloatArray,
+    *,
+    clock_s: float,
+    heading: str = "prop",
+) -> tuple[Move, ...]:
+    """Return the moves of one part, from the first of some times to the last.
+
+    Parameters
+    ----------
+    clock_s
+        Time at which its idling began.
+    heading
+        What it faces by, one of `HEADINGS`.
+    """
+    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
+    path = HEADINGS[heading](ground_path(recording.of(part.device), stage), spans, pieces)
+    return course(spans, path, pieces, clock_s=clock_s)
+
+
+def idling_aheads() -> Iterator[float]:
     """Return how far ahead each performer is in its idling, so that no two breathe as one."""
     golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
     return (golden * i % 1.0 for i in itertools.count())

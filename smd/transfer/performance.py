@@ -54,7 +54,7 @@ class Performance:
     rate_hz : frames per second.
     start_s : the recording's time at frame 0; frame i is at ``start_s + i / rate_hz``.
     actors : one per performer of the Score; all with the same number of frames.
-    score : what they perform.
+    score : what they perform; its warnings are followed by those of acting it out.
     """
 
     rate_hz: float

@@ -1,0 +1,229 @@
+"""What is measured of a performance: feet, path, boundaries, and how smoothly joints turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from actions_library.library import Library
+from smd.character.clip import Clip
+from smd.character.kinematics import joints_in_world
+from smd.character.skeleton import Skeleton
+from smd.doodle import Recording
+from smd.geometry.arrays import BoolArray, FloatArray, IntArray
+from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
+from smd.score import Score
+from smd.transfer.acting import acted_contacts, own_poses, rows_of
+from smd.transfer.legs import feet_of, legs_of
+from smd.transfer.move import Move
+from smd.transfer.pacing import core_frame
+from smd.transfer.path import GroundPath, ground_path
+from smd.transfer.perform import idling_aheads, moves_of
+from smd.transfer.performance import Actor, Performance
+from smd.transfer.poses import Poses
+from smd.transfer.repertoire import Piece, repertoire
+from smd.transfer.stage import stage_for
+from smd.transfer.standing import standing
+
+LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
+"""NVIDIA kimodo's: toes below the first height are taken to touch, above the speed to skate."""
+
+ON_GROUND_M = 0.005
+"""Height of a sole up to which it is on the ground."""
+
+POP_DEG = 8.0
+"""A turn of a joint from one frame to the next, at 60 Hz, that its clip does not have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Feet:
+    """Speeds (m/s) over the ground and heights (m); each speed is of one step of one point.
+
+    Attributes
+    ----------
+    labelled_m_s : of the sole, while its foot is labelled as standing and is on the ground.
+    near_m_s : of heels and balls within 5 mm of the ground, labelled or not.
+    toes_m_s : of toes below 5 cm.
+    lowest_m : of any sole.
+    """
+
+    labelled_m_s: FloatArray
+    near_m_s: FloatArray
+    toes_m_s: FloatArray
+    lowest_m: float
+
+
+class Played(NamedTuple):
+    """An actor, with what it acts by.
+
+    Attributes
+    ----------
+    actor : with poses at ``time_s (n,)``.
+    moves : one after the other.
+    idle : what is seen between them.
+    clock_s : when idling began.
+    path : of the prop, on the stage.
+    feet : joints; ``stands (n, feet)`` when each should stand.
+    """
+
+    actor: Actor
+    time_s: FloatArray
+    moves: tuple[Move, ...]
+    idle: Piece
+    clock_s: float
+    path: GroundPath
+    feet: tuple[int, ...]
+    stands: BoolArray
+
+    @property
+    def poses(self) -> Poses:
+        """Return what is seen."""
+        return Poses(self.actor.rotation_xyzw, self.actor.translation_m)
+
+
+def played(
+    performance: Performance, score: Score, recording: Recording, library: Library
+) -> Iterator[Played]:
+    """Yield the actors of a performance, in full Effort, with their moves."""
+    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
+    phrases = [phrase for part in score.performers for phrase in part.phrases]
+    pieces = repertoire(library, phrases, expressiveness=1.0)
+    feet = tuple(leg.foot for leg in pieces.legs)
+    time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
+    for actor, ahead in zip(performance.actors, idling_aheads(), strict=False):
+        clock_s = float(time_s[0]) - ahead * pieces.idle.clip.duration_s
+        moves = moves_of(actor.part, recording, stage, pieces, time_s, clock_s=clock_s)
+        stands, _ = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
+        path = ground_path(recording.of(actor.device), stage)
+        yield Played(actor, time_s, moves, pieces.idle, clock_s, path, feet, stands)
+
+
+def measured_feet(
+    skeleton: Skeleton, poses: Poses, feet: Sequence[int], stands: BoolArray, rate_hz: float
+) -> Feet:
+    """Measure the feet of poses in the world; ``stands (n, feet)`` is when each should."""
+    labelled, near, toes, lowest = [], [], [], np.inf
+    legs = legs_of(skeleton, feet)
+    foot_q, ankle = joints_in_world(skeleton, [leg.foot for leg in legs], *poses)
+    for i, leg in enumerate(legs):
+        on = stands[:, list(feet).index(leg.foot)]
+        points = [ankle[:, i] + rotate(foot_q[:, i], p) for p in (leg.heel_m, leg.ball_m)]
+        heel, ball = points
+        ups = [heel[:, 1], ball[:, 1] - leg.ball_height_m]
+        lowest = min(lowest, *(float(up.min()) for up in ups))
+        for point, up in zip(points, ups, strict=True):
+            near.append(_speeds(point, up < ON_GROUND_M, rate_hz))
+        on_heel = ups[0] < ups[1]  # what a rolling foot stands on
+        for point, up, bears in zip(points, ups, (on_heel, ~on_heel), strict=True):
+            labelled.append(_speeds(point, on & bears & (up < ON_GROUND_M), rate_hz))
+        toes.append(_speeds(ball, ball[:, 1] < LOW_TOES_M, rate_hz))
+    return Feet(np.concatenate(labelled), np.concatenate(near), np.concatenate(toes), lowest)
+
+
+def feet_of_clip(clip: Clip) -> Feet | None:
+    """Measure the feet of a neutral clip; None where it has none."""
+    feet = feet_of(clip)
+    if not feet:
+        return None
+    stands = standing(clip, legs_of(clip.skeleton, feet), feet)
+    labels = np.stack([stands[foot] for foot in feet], axis=-1)
+    poses = Poses(clip.rotation_xyzw, clip.translation_m)
+    return measured_feet(clip.skeleton, poses, feet, labels, clip.rate_hz)
+
+
+def _speeds(place_m: FloatArray, low: BoolArray, rate_hz: float) -> FloatArray:
+    """Return speeds over the ground between two frames that are both low."""
+    steps = np.diff(place_m, axis=0)[low[1:] & low[:-1]]
+    return np.hypot(steps[:, 0], steps[:, 2]) * rate_hz
+
+
+def path_errors_m(seen: Played) -> FloatArray:
+    """Return distances of the ground root from the smoothed path in travelling phrases."""
+    errors = [np.zeros(0)]
+    for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
+        if move is None or not move.piece.travels:
+            continue
+        rows = (seen.time_s >= phrase.start_s) & (seen.time_s <= phrase.end_s)
+        if not rows.any():
+            continue
+        root = seen.actor.translation_m[rows][:, 0, [0, 2]]
+        # The character goes on from where it stood: both begin at the origin.
+        wanted = seen.path.at(np.arange(phrase.start_s, phrase.end_s, 1e-3))
+        gaps = (root - root[:1])[:, None] - (wanted - seen.path.at(seen.time_s[rows][0]))[None]
+        errors.append(np.linalg.norm(gaps, axis=-1).min(axis=1))
+    return np.concatenate(errors)
+
+
+def first_moves(seen: Played) -> list[Move | None]:
+    """Return the move with which each phrase begins."""
+    acting = [move for move in seen.moves if not move.idles]
+    found: list[Move | None] = []
+    for phrase in seen.actor.part.phrases:
+        of = [m for m in acting if m.piece.clip.name == phrase.action and m.end_s > phrase.start_s]
+        found.append(of[0] if of and of[0].start_s < phrase.end_s else None)
+    return found
+
+
+def boundary_gaps_s(seen: Played) -> tuple[FloatArray, FloatArray]:
+    """Return how far each phrase's clip begins, and has shown what it is about, off the Score.
+
+    A clip that is done earlier is not late: 0.
+    """
+    begins, ends = [], []
+    for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
+        if move is None:
+            continue
+        begins.append(abs(move.start_s - phrase.start_s))
+        if not move.piece.clip.cyclic:
+            done = np.searchsorted(move.frame, core_frame(move.piece.clip) - 0.5)
+            done_s = float(move.time_s[min(done, len(move.time_s) - 1)])
+            ends.append(max(done_s - phrase.end_s, 0.0))
+        else:
+            ends.append(abs(move.end_s - phrase.end_s))
+    return np.array(begins), np.array(ends)
+
+
+def turns_deg(rotation_xyzw: FloatArray) -> FloatArray:
+    """Return how far each joint turns from frame to frame ``(n - 1, j)``."""
+    between = multiply(inverse(rotation_xyzw[:-1]), rotation_xyzw[1:])
+    return np.degrees(np.linalg.norm(rotvec_from_quaternion(between), axis=-1))
+
+
+def pops(seen: Played) -> tuple[int, int, float]:
+    """Return how many turns of a joint in a frame exceed the clip's own by `POP_DEG`.
+
+    Returns
+    -------
+    count, of, worst_deg
+        Turns in all, and the largest excess.
+    """
+    own = np.full(len(seen.time_s) - 1, 0.0)[:, None] * np.ones(seen.actor.rotation_xyzw.shape[1])
+    for move, rows in zip(seen.moves, rows_of(seen.moves, seen.time_s), strict=True):
+        if rows.stop - rows.start < 2:
+            continue
+        poses = own_poses(move, seen.time_s[rows], seen.idle, seen.clock_s)
+        own[rows.start : rows.stop - 1] = turns_deg(poses.rotation_xyzw)
+    excess = (turns_deg(seen.actor.rotation_xyzw) - own)[:, 1:]
+    return int(np.count_nonzero(excess > POP_DEG)), excess.size, float(excess.max())
+
+
+def accelerations(seen: Played, rate_hz: float) -> tuple[FloatArray, BoolArray]:
+    """Return each joint's angular acceleration ``(m, j)``, deg/s², and which are at a boundary."""
+    q = seen.actor.rotation_xyzw[:, 1:]
+    speed = np.degrees(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))) * rate_hz
+    acceleration = np.linalg.norm(np.diff(speed, axis=0), axis=-1) * rate_hz
+    at = np.zeros(len(acceleration), dtype=bool)
+    at[boundary_frames(seen, rate_hz)] = True
+    return acceleration, at
+
+
+def boundary_frames(seen: Played, rate_hz: float) -> IntArray:
+    """Return the rows of `accelerations` that look across a phrase's start or end."""
+    phrases = seen.actor.part.phrases
+    edges_s = np.array([edge for phrase in phrases for edge in (phrase.start_s, phrase.end_s)])
+    frames = np.ceil((edges_s - seen.time_s[0]) * rate_hz).astype(np.int64)
+    rows = np.concatenate([frames - 2, frames - 1])
+    return np.unique(rows[(rows >= 0) & (rows < len(seen.time_s) - 2)])
