@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from actions_library.cast import cast_of
 from actions_library.library import Library
 from smd.character.clip import Clip
 from smd.character.kinematics import joints_in_world
@@ -20,7 +21,7 @@ from smd.transfer.legs import feet_of, legs_of
 from smd.transfer.move import Move
 from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
-from smd.transfer.perform import entrances
+from smd.transfer.perform import entrances, kept_apart
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Piece
@@ -91,8 +92,9 @@ def played(performance: Performance, recording: Recording, library: Library) -> 
     score = performance.score
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
-    staged = entrances(score, recording, library, time_s, expressiveness=1.0, heading="prop")
-    for actor, one in zip(performance.actors, staged, strict=True):
+    cast = cast_of(library)
+    alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop")
+    for actor, one in zip(performance.actors, kept_apart(alone, cast), strict=True):
         idle, feet = one.pieces.idle, tuple(leg.foot for leg in one.pieces.legs)
         stands, _ = acted_contacts(one.moves, time_s, idle, feet, clock_s=one.clock_s)
         path = ground_path(recording.of(actor.device), stage)

@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from actions_library.cast import Cast
     from actions_library.folder import load_library
     from exporters import write
     from smd.doodle import Doodle, Recording
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from smd.transfer.performance import Performance
 
 _HOME = {
+    "Cast": "actions_library.cast",
     "Doodle": "smd.doodle",
     "Performance": "smd.transfer.performance",
     "Phrase": "smd.score",
@@ -45,6 +47,7 @@ _HOME = {
 """Where each public name is defined; it is imported when it is first asked for."""
 
 __all__ = [
+    "Cast",
     "Doodle",
     "Performance",
     "Phrase",

@@ -10,6 +10,7 @@ from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.errors import DoodleError, ScoreError
 
 if TYPE_CHECKING:
+    from actions_library.cast import Cast
     from actions_library.library import Library
     from laban import EffortModel, RigidMotion
     from smd.doodle import Doodle, Recording
@@ -24,7 +25,7 @@ HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
 
 def parse(
     recording: Recording,
-    library: Library,
+    library: Library | Cast,
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
     devices: Collection[str] | None = None,
@@ -37,7 +38,7 @@ def parse(
     recording
         What was drawn.
     library
-        The actions to recognise; their clips are not read.
+        The actions to recognise; their clips are not read. In a `Cast`, each device's own.
     figure_height_m
         Height of the figurine that the prop stands for, positive.
     devices
@@ -55,20 +56,28 @@ def parse(
     ------
     ScoreError
         If the figure height is not positive, or a device is not in the recording.
+    LibraryError
+        If a cast has a library for a device that is not in the recording.
     """
+    from actions_library.cast import cast_of
     from laban import load_effort_model
     from smd.recognition.spotting import Recognizer
     from smd.score import Part, Score
 
     empty = Score((), recording.source, figure_height_m=figure_height_m)
-    recognizer = Recognizer(library, figure_height_m=figure_height_m, tolerance=tolerance)
+    cast = cast_of(library)
+    cast.check(recording.devices)
+    recognizers: dict[Library, Recognizer] = {}
     model = load_effort_model()
     parts, warnings = [], []
     for device in _performing(recording, devices):
+        own = cast.of(device)
+        if own not in recognizers:
+            recognizers[own] = Recognizer(own, figure_height_m=figure_height_m, tolerance=tolerance)
         played: list[tuple[Span, RigidMotion]] = []
         for doodle in recording.of(device):
             try:
-                played.extend(_played(doodle, recognizer))
+                played.extend(_played(doodle, recognizers[own]))
             except DoodleError as error:
                 warnings.append(f"left out: {error}")
         parts.append(Part(device, tuple(_phrases(played, model))))
@@ -152,7 +161,7 @@ def _never_tracked(recording: Recording) -> Iterator[str]:
 def animate(
     score: Score,
     recording: Recording,
-    library: Library,
+    library: Library | Cast,
     *,
     rate_hz: float = 24.0,
     expressiveness: float = 1.0,
@@ -167,7 +176,7 @@ def animate(
     recording
         The doodles that the Score was read from.
     library
-        The character and its clips.
+        The character and its clips; in a `Cast`, each device's own.
     rate_hz
         Frames per second. At 24, what Blender's importer leaves its scene at, a file plays at its
         true speed there.
@@ -180,6 +189,8 @@ def animate(
     ------
     ScoreError
         If the Score names an action, a device or a time that is not there.
+    LibraryError
+        If a cast has a library for a device that is not in the recording.
     TransferError
         If it cannot be acted out.
     """

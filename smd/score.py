@@ -67,10 +67,18 @@ class Phrase:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """What one device performs: phrases in time order that do not overlap."""
+    """What one device performs.
+
+    Attributes
+    ----------
+    device : whose doodles they are.
+    phrases : in time order, not overlapping.
+    library : where its performer's own library is; empty for the Score's.
+    """
 
     device: str
     phrases: tuple[Phrase, ...] = ()
+    library: str = ""
 
     def __post_init__(self) -> None:
         for before, after in zip(self.phrases, self.phrases[1:], strict=False):
@@ -194,7 +202,8 @@ def _part_json(part: Part) -> str:
             )
         lines.append(f"      {_phrase_json(phrase, start_s, previous_end_s)}")
     body = "[\n" + ",\n".join(lines) + "\n    ]" if lines else "[]"
-    return f'    {{"device": {_json(part.device)}, "phrases": {body}}}'
+    own = f'"library": {_json(part.library)}, ' if part.library else ""
+    return f'    {{"device": {_json(part.device)}, {own}"phrases": {body}}}'
 
 
 def _phrase_json(phrase: Phrase, start_s: float, end_s: float) -> str:
@@ -248,9 +257,9 @@ def score_from_json(text: str, source: str = "score") -> Score:
     """Read a Score from JSON text.
 
     What a person would leave out may be missing: ``recording``, ``library``,
-    ``figure_height_m``, ``reading``, ``warnings``, and a phrase's ``effort``, ``confidence``
-    and ``alternatives``. Keys that are not known are refused, so that a slip of the pen does
-    not pass for silence.
+    ``figure_height_m``, ``reading``, ``warnings``, a performer's ``library``, and a phrase's
+    ``effort``, ``confidence`` and ``alternatives``. Keys that are not known are refused, so that a
+    slip of the pen does not pass for silence.
 
     Parameters
     ----------
@@ -396,11 +405,12 @@ def _phrase(node: _Node, earliest_s: float) -> Phrase:
 
 
 def _part(node: _Node) -> Part:
-    members = node.members(("device", "phrases"))
+    members = node.members(("device", "phrases"), ("library",))
     phrases: list[Phrase] = []
     for item in members["phrases"].items():
         phrases.append(_phrase(item, phrases[-1].end_s if phrases else -math.inf))
-    return Part(members["device"].name(), tuple(phrases))
+    library = members["library"].text() if "library" in members else ""
+    return Part(members["device"].name(), tuple(phrases), library)
 
 
 def _performers(node: _Node) -> tuple[Part, ...]:

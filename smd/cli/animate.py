@@ -17,7 +17,7 @@ def animate(
         Path | None,
         typer.Option(help="The recording. Default: the one the Score names, beside the Score."),
     ] = None,
-    library: reading.LibraryFolder = None,
+    library: reading.Libraries = None,
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
@@ -39,11 +39,9 @@ def animate(
         recording = score_file.parent / score.recording
     options = reading.ReadingOptions.from_pairs(score.reading)
     take = options.read(recording)
-    if library is None and score.library:
-        library = score_file.parent / score.library
-    shelf = smd.load_library(library)
+    cast = reading.LibraryFolders.from_options(library).over(score, score_file).load()
     performance = smd.animate(
-        score, take, shelf, rate_hz=fps, expressiveness=expressiveness, heading=heading
+        score, take, cast, rate_hz=fps, expressiveness=expressiveness, heading=heading
     )
     smd.write(performance, output)
     said = f"{output}: {reading.summary(take, score)}"

@@ -20,7 +20,7 @@ def convert(
     suffix: Annotated[
         str, typer.Option("--as", help="Format of the files written into a folder.")
     ] = ".usdc",
-    library: reading.LibraryFolder = None,
+    library: reading.Libraries = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
     fps: reading.FramesPerSecond = 24.0,
@@ -47,15 +47,16 @@ def convert(
     for path in outputs:
         require_known_suffix(path)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    shelf = smd.load_library(library)
+    folders = reading.LibraryFolders.from_options(library)
+    cast = folders.load()
     understood = reading.understanding(
-        options, shelf, library, figure_height_m=figure_height, devices=device, tolerance=tolerance
+        options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
     )
 
     def one(index: int, file: Path) -> None:
         recording, score = understood(file)
         performance = smd.animate(
-            score, recording, shelf, rate_hz=fps, expressiveness=expressiveness, heading=heading
+            score, recording, cast, rate_hz=fps, expressiveness=expressiveness, heading=heading
         )
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"

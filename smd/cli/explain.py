@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from smd.recognition import Recognizer
 
 if TYPE_CHECKING:
-    from actions_library.library import Library
+    from actions_library.cast import Cast
     from smd.doodle import Doodle, Recording
     from smd.recognition import Match
     from smd.score import Phrase, Score
@@ -18,13 +18,13 @@ SHOWN_OTHERS = 2
 """So many of the actions that came next are shown."""
 
 
-def explanation(score: Score, recording: Recording, library: Library) -> Iterator[str]:
+def explanation(score: Score, recording: Recording, cast: Cast) -> Iterator[str]:
     """Yield lines on each phrase: its terms, what would have rejected it, and what came next.
 
     A phrase is weighed again by itself: terms may differ a little from those in the flow.
     """
-    recognizer = Recognizer(library, figure_height_m=score.figure_height_m)
     for part in score.performers:
+        recognizer = Recognizer(cast.of(part.device), figure_height_m=score.figure_height_m)
         yield f"  {part.device}: what each phrase was weighed by, small is alike"
         for phrase in part.phrases:
             whole = next(

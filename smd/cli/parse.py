@@ -28,7 +28,7 @@ def parse(
     explain: Annotated[
         bool, typer.Option("--explain", help="Print what each phrase was weighed by.")
     ] = False,
-    library: reading.LibraryFolder = None,
+    library: reading.Libraries = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
     device: reading.Device = None,
@@ -43,15 +43,15 @@ def parse(
 
     They are printed, or written as a Score that can be corrected by hand.
     """
-    import smd
     from smd.score import score_to_json, write_score
 
     files = list(reading.recording_files(recordings))
     outputs = targets(recordings, files, output, reading.SCORE_SUFFIX) if output else []
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    shelf = smd.load_library(library)
+    folders = reading.LibraryFolders.from_options(library)
+    cast = folders.load()
     understood = reading.understanding(
-        options, shelf, library, figure_height_m=figure_height, devices=device, tolerance=tolerance
+        options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
     )
     scores: list[Score] = []
 
@@ -66,7 +66,7 @@ def parse(
             if explain:
                 from smd.cli.explain import explanation
 
-                typer.echo("\n".join(explanation(score, recording, shelf)))
+                typer.echo("\n".join(explanation(score, recording, cast)))
             if outputs:
                 typer.echo(f"written: {outputs[index]}")
 

@@ -195,7 +195,7 @@ class _Understanding:
         understood = reading.understanding(
             reading.ReadingOptions(mount=None if self.mount is None else str(self.mount)),
             self.library,
-            self.folder,
+            reading.LibraryFolders(self.folder),
             figure_height_m=self.figure_height_m,
             devices=devices,
             tolerance=self.tolerance,

@@ -81,7 +81,7 @@ def grounded(
         sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
         translation[:, pelvis] -= sunk_m
     for i, foot in enumerate(feet):
-        own_m = raw[i][1] - sunk_m  # the leg's own, once the body sinks
+        own_m = raw[i][1] + (hips[i] - own_hips[i]) - sunk_m  # the leg's own, with the body
         offset_m = _loosened(foot.ankle_m - own_m, stands[:, i], rate_hz)
         _bring(skeleton, foot._replace(ankle_m=own_m + offset_m), rotation, translation)
     return Poses(rotation, translation)

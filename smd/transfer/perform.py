@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from actions_library.cast import Cast, cast_of
 from actions_library.library import Library
 from smd.character.character import Character
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
-from smd.score import Part, Score
+from smd.score import Part, Phrase, Score
 from smd.transfer.acting import acted_contacts, acted_poses
+from smd.transfer.company import apart, encounters
 from smd.transfer.course import course
 from smd.transfer.demands import demands
 from smd.transfer.easing import gaussian_smoothed
@@ -25,12 +27,12 @@ from smd.transfer.flight import flights, height_of, raised
 from smd.transfer.grounding import Rise, grounded
 from smd.transfer.legs import pelvis_of
 from smd.transfer.move import Move
-from smd.transfer.path import GroundPath, ground_path
+from smd.transfer.path import ground_path
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Repertoire, repertoire
 from smd.transfer.stage import Stage, stage_for
-from smd.transfer.timeline import Span, timeline
+from smd.transfer.timeline import timeline
 
 RATE_HZ = 24.0
 """Frames per second: film's, and what Blender's importer leaves its scene at."""
@@ -45,7 +47,7 @@ TURNING_S = 0.1
 def perform(
     score: Score,
     recording: Recording,
-    library: Library,
+    library: Library | Cast,
     *,
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
@@ -60,7 +62,7 @@ def perform(
     recording
         What the Score was read from; the performance lasts from its first to its last sample.
     library
-        Character and clips.
+        Character and clips; in a `Cast`, each performer's own.
     rate_hz
         Frames per second, positive.
     expressiveness
@@ -77,6 +79,8 @@ def perform(
     ------
     ScoreError
         If an action, a device or a time is not there.
+    LibraryError
+        If a cast has a library for a device that is not in the recording.
     TransferError
         If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2,
         ``heading`` is neither, or the Score has no performers.
@@ -89,21 +93,38 @@ def perform(
         raise TransferError(f"heading: expected {' or '.join(HEADINGS)}, got {heading!r}")
     if not score.performers:
         raise TransferError("score: expected at least one performer, got none")
+    cast = cast_of(library)
+    cast.check(recording.devices)
     for part in score.performers:
-        check_part(part, recording, library)
+        check_part(part, recording, cast.of(part.device))
     start_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
     end_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
     # + 1e-6: a duration of whole frames may come out a hair short.
     frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
     time_s = start_s + np.arange(frames) / rate_hz
-    staged = entrances(
-        score, recording, library, time_s, expressiveness=expressiveness, heading=heading
+    alone = entrances(
+        score, recording, cast, time_s, expressiveness=expressiveness, heading=heading
     )
-    actors = tuple(act(one, library.character, time_s, rate_hz) for one in staged)
+    staged = kept_apart(alone, cast)
+    actors = tuple(act(one, cast.of(one.part.device).character, time_s, rate_hz) for one in staged)
     asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    devices = [part.device for part in score.performers]
+    before, after = ([one.moves for one in performers] for performers in (alone, staged))
+    asked += encounters(devices, before, after, _heights_m(devices, cast))
     # A Score may come from an earlier performance, and have its warnings already.
     warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
     return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings))
+
+
+def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library, Repertoire]:
+    """Return what can be performed with each library of a cast, in this Score."""
+    phrases: dict[Library, list[Phrase]] = {}
+    for part in score.performers:
+        phrases.setdefault(cast.of(part.device), []).extend(part.phrases)
+    return {
+        library: repertoire(library, spoken, expressiveness=expressiveness)
+        for library, spoken in phrases.items()
+    }
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
@@ -154,41 +175,51 @@ class Staged:
 def entrances(
     score: Score,
     recording: Recording,
-    library: Library,
+    cast: Cast,
     time_s: FloatArray,
     *,
     expressiveness: float,
     heading: str,
 ) -> list[Staged]:
-    """Lay out what each performer does from the first of some times to the last.
+    """Lay out what each performer does, as if alone, from the first of some times to the last.
 
     Parameters are those of `perform`.
     """
-    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    phrases = [phrase for part in score.performers for phrase in part.phrases]
-    pieces = repertoire(library, phrases, expressiveness=expressiveness)
+    stage = stage_for(recording, cast.shared.character.height_m, score.figure_height_m)
+    pieces = repertoires(score, cast, expressiveness)
     return [
-        enter(part, recording.of(part.device), stage, pieces, time_s, ahead, HEADINGS[heading])
+        enter(part, recording, stage, pieces[cast.of(part.device)], time_s, ahead, heading)
         for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
     ]
 
 
+def kept_apart(alone: Sequence[Staged], cast: Cast) -> list[Staged]:
+    """Return performers that do not walk through each other."""
+    heights_m = _heights_m([one.part.device for one in alone], cast)
+    together = apart([one.moves for one in alone], heights_m)
+    return [replace(one, moves=moves) for one, moves in zip(alone, together, strict=True)]
+
+
+def _heights_m(devices: Sequence[str], cast: Cast) -> list[float]:
+    return [cast.of(device).character.height_m for device in devices]
+
+
 def enter(
     part: Part,
-    doodles: Sequence[Doodle],
+    recording: Recording,
     stage: Stage,
     pieces: Repertoire,
     time_s: FloatArray,
     idling_ahead: float,
-    facing: Callable[[GroundPath, Sequence[Span], Repertoire], GroundPath],
+    heading: str,
 ) -> Staged:
     """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
     spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    path = facing(ground_path(doodles, stage), spans, pieces)
+    path = HEADINGS[heading](ground_path(recording.of(part.device), stage), spans, pieces)
     moves = course(spans, path, pieces, clock_s=clock_s)
-    placed_doodles = tuple(stage.placed_doodle(doodle) for doodle in doodles)
-    return Staged(part, placed_doodles, pieces, moves, clock_s)
+    doodles = tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device))
+    return Staged(part, doodles, pieces, moves, clock_s)
 
 
 def act(staged: Staged, character: Character, time_s: FloatArray, rate_hz: float) -> Actor:

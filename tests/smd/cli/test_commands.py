@@ -77,3 +77,31 @@ def test_the_command_lines_figure_height_is_the_librarys():
     from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 
     assert FIGURE_HEIGHT_M == DEFAULT_FIGURE_HEIGHT_M
+
+
+def test_a_performer_may_have_a_library_of_its_own(run_smd, stories, tmp_path):
+    folder = stories.parent / "actions_library" / "humanoid"
+    take, score = stories / "duel.csv", tmp_path / "duel.score.json"
+    assert run_smd("parse", take, "--library", f"rival={folder}", "-o", score)[0] == 0
+    kept = json.loads(score.read_text(encoding="utf-8"))
+    named = {part["device"]: part.get("library", "") for part in kept["performers"]}
+    assert kept["library"] == named["knight"] == ""
+    assert (tmp_path / named["rival"]).resolve() == folder.resolve()
+    assert run_smd("animate", score, "-o", tmp_path / "duel.usda")[0] == 0
+    code, _, err = run_smd("convert", take, "--library", f"fox={folder}", "-o", tmp_path / "x.usda")
+    assert (code, len(err.splitlines())) == (3, 1)
+    assert "expected devices of the recording (knight, rival), found 'fox'" in err
+    both = ("--library", folder, "--library", tmp_path)
+    assert run_smd("convert", take, *both, "-o", tmp_path / "x.usda")[0] == 2
+    assert not (tmp_path / "x.usda").exists()
+
+
+def test_convert_faces_as_asked_and_prints_what_is_asked_too_much(run_smd, stories, tmp_path):
+    take = stories / "postman.csv"
+    outputs = [tmp_path / f"{heading}.usdc" for heading in ("prop", "path")]
+    for output in outputs:
+        code, out, _ = run_smd("convert", take, "--heading", output.stem, "-o", output)
+        assert code == 0
+        assert "device 'postman': walk at " in out
+    assert outputs[0].read_bytes() != outputs[1].read_bytes()
+    assert run_smd("convert", take, "--heading", "camera", "-o", tmp_path / "x.usda")[0] == 2
