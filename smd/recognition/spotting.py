@@ -25,7 +25,7 @@ from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of, traits_of_parts
-from smd.recognition.verification import TERMS, WRONG, verification_of
+from smd.recognition.verification import GLANCE, TERMS, WRONG, verification_of
 from smd.smoothing import smooth
 
 UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
@@ -39,10 +39,6 @@ what does not is rejected by the limit."""
 
 WORTH_NAMING = 2.0
 """An action that costs more than so many times its limit is no alternative to another one."""
-
-GLANCE = 2
-"""Courses of proposals are warped by every second sample, in a quarter of the time. That is good
-enough to choose stretches; what they are called is decided by all samples."""
 
 Fits: TypeAlias = dict[tuple[int, float, float], float]
 """How well stretches fit an action's examples, by action, start and end in seconds."""

@@ -1,0 +1,214 @@
+"""Warping: how far many courses are from the nearest examples of their actions, all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+from numpy.lib.stride_tricks import as_strided
+from numpy.typing import NDArray
+
+from smd.geometry.arrays import FloatArray, IntArray
+from smd.recognition.alignment import pair_distances, widest_shift
+
+Single: TypeAlias = NDArray[np.float32]
+
+LANES = 4096
+"""Pairs of a course and an example that are warped together: enough that array operations cost
+more than calling them, few enough that their costs stay in the processor's cache."""
+
+FEW = 4
+"""Actions whose costs are taken from where they are; of more, they are copied together first."""
+
+_OUT_OF_REACH = np.float32(1e9)
+_ROUNDING = float(np.finfo(np.float32).eps)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Examples:
+    """Courses of the examples of a actions, laid out to warp others onto.
+
+    Attributes
+    ----------
+    courses : of each action ``(m, n, d)``, n and d the same for all, n at least 4.
+    band : how far warping may shift, as a share of n, at least 1 / n.
+    """
+
+    courses: tuple[FloatArray, ...]
+    band: float
+    _shift: int = field(init=False)
+    _windows: tuple[Single, ...] = field(init=False)
+    _size: FloatArray = field(init=False)
+
+    def __post_init__(self) -> None:
+        courses = tuple(np.ascontiguousarray(each, dtype=np.float64) for each in self.courses)
+        shift = widest_shift(courses[0].shape[1], self.band)
+        size = [float(np.square(each).sum(axis=-1).max()) for each in courses]
+        object.__setattr__(self, "courses", courses)
+        object.__setattr__(self, "_shift", shift)
+        object.__setattr__(self, "_windows", tuple(_windows(each, shift) for each in courses))
+        object.__setattr__(self, "_size", np.array(size))
+
+    def nearest(self, courses: FloatArray, action: IntArray, most: FloatArray) -> FloatArray:
+        """Return ``(p,)``, the `alignment.distance` of p courses to the nearest example.
+
+        First all examples are warped in single precision. What may be nearest, as far as its
+        rounding tells, is then warped in double precision.
+
+        Parameters
+        ----------
+        courses
+            ``(p, n, d)``.
+        action
+            ``(p,)``, whose examples each is held against; the faster the fewer changes there
+            are from one to the next.
+        most
+            ``(p,)``, a distance above it is of no interest and comes out as infinity.
+        """
+        nearest = np.full(len(courses), np.inf)
+        scratch = _Scratch()
+        for part in self._slabs(action):
+            blocks = list(_blocks(action[part]))
+            ours = courses[part]
+            totals = self._totals(ours, action[part], blocks, scratch)
+            for own, total in zip(blocks, totals, strict=True):
+                index = int(action[part][own.start])
+                low, high = self._bounds(ours[own], index, total)
+                bound = np.minimum(high.min(axis=1), np.square(most[part][own]) * ours.shape[1])
+                pairs = np.argwhere(low <= bound[:, None])
+                exact = pair_distances(ours[own], self.courses[index], pairs, band=self.band)
+                np.minimum.at(nearest, part.start + own.start + pairs[:, 0], exact)
+        nearest[nearest > most] = np.inf
+        return nearest
+
+    def _slabs(self, action: IntArray) -> Iterator[slice]:
+        """Yield parts of p pairs, in order, of about `LANES` lanes each."""
+        lanes = np.cumsum([len(self.courses[index]) for index in action.tolist()])
+        first = 0
+        while first < len(action):
+            before = lanes[first - 1] if first else 0
+            last = max(int(np.searchsorted(lanes, before + LANES, side="right")), first + 1)
+            yield slice(first, last)
+            first = last
+
+    def _totals(
+        self, courses: FloatArray, action: IntArray, blocks: Sequence[slice], scratch: _Scratch
+    ) -> list[FloatArray]:
+        """Return, for each block of courses of one action, the least sums to its examples."""
+        p, n, d = courses.shape
+        # (a, 1, |a|^2) times (-2 b, |b|^2, 1) is the square of the distance of a and b
+        ours = np.empty((n, d + 2, p), np.float32)
+        ours[:, :d] = courses.transpose(1, 2, 0)
+        ours[:, d] = 1.0
+        ours[:, d + 1] = np.square(courses).sum(axis=-1).T
+        width = 2 * self._shift + 1
+        windows = [self._windows[int(action[own.start])] for own in blocks]
+        costs = []
+        for number, (own, window) in enumerate(zip(blocks, windows, strict=True)):
+            cost = scratch.array(f"cost {number}", (n, window.shape[1], own.stop - own.start))
+            np.matmul(window, ours[:, :, own], out=cost)
+            costs.append(cost.reshape(n, width, -1))
+        if len(costs) > FEW:
+            costs = [np.concatenate(costs, axis=2)]
+        least = _least_sums(costs, scratch)
+        counts = [own.stop - own.start for own in blocks]
+        lanes = [w.shape[1] // width * count for w, count in zip(windows, counts, strict=True)]
+        return [
+            part.reshape(-1, count).T.astype(np.float64)
+            for part, count in zip(np.split(least, np.cumsum(lanes)[:-1]), counts, strict=True)
+        ]
+
+    def _bounds(
+        self, courses: FloatArray, action: int, total: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return what sums in single precision may be, at least and at most.
+
+        A sample's cost is a scalar product of d + 2 numbers, whose terms add up to no more than
+        twice the squares of both sizes; a path adds up fewer than 2 n costs.
+        """
+        _, n, d = courses.shape
+        size = np.square(courses).sum(axis=-1).max(axis=1)[:, None] + self._size[action]
+        error = 2 * n * _ROUNDING * (2 * (d + 3) * size + total)
+        return total - error, total + error
+
+
+class _Scratch:
+    """Memory for results in between, asked for once: getting it takes as long as filling it."""
+
+    def __init__(self) -> None:
+        self._memory: dict[str, Single] = {}
+
+    def array(self, name: str, shape: tuple[int, ...]) -> Single:
+        """Return an array that holds anything, and shares its memory with the last of its name."""
+        size = int(np.prod(shape))
+        if name not in self._memory or self._memory[name].size < size:
+            self._memory[name] = np.empty(size, np.float32)
+        return self._memory[name][:size].reshape(shape)
+
+
+def _windows(examples: FloatArray, shift: int) -> Single:
+    """Return ``(n, (2 shift + 1) m, d + 2)``, which samples of m examples each may be paired with.
+
+    What is paired with sample i is sample i - shift to i + shift of each example; the parts share
+    their memory.
+    """
+    m, n, d = examples.shape
+    rows = np.zeros((n + 2 * shift, m, d + 2), np.float32)
+    rows[..., d] = _OUT_OF_REACH
+    inside = rows[shift : shift + n]
+    inside[..., :d] = -2.0 * examples.transpose(1, 0, 2)
+    inside[..., d] = np.square(examples).sum(axis=-1).T
+    inside[..., d + 1] = 1.0
+    rows.flags.writeable = False
+    return as_strided(rows, (n, (2 * shift + 1) * m, d + 2), rows.strides, writeable=False)
+
+
+def _blocks(action: IntArray) -> Iterator[slice]:
+    """Yield the stretches of equal numbers."""
+    edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), len(action)]
+    for first, last in pairwise(edges):
+        yield slice(first, last)
+
+
+def _least_sums(costs: Sequence[Single], scratch: _Scratch) -> Single:
+    """Return ``(lanes,)``, the least sum of costs on a way from the first pair to the last one.
+
+    The table of dynamic time warping, diagonal by diagonal, all lanes at once::
+
+        sum(i, j) = cost(i, j) + min(sum(i - 1, j), sum(i, j - 1), sum(i - 1, j - 1))
+
+    Parameters
+    ----------
+    costs
+        Of the lanes, in parts, each ``(n, 2 shift + 1, some)``, of pairing sample i with sample
+        i + k - shift; shift at least 1.
+    """
+    n, width, _ = costs[0].shape
+    shift = width // 2
+    ends = np.cumsum([cost.shape[2] for cost in costs]).tolist()
+    parts = [
+        (slice(end - cost.shape[2], end), cost.reshape(n * width, -1))
+        for end, cost in zip(ends, costs, strict=True)
+    ]
+    diagonals = scratch.array("diagonals", (3, n + 2, ends[-1]))
+    diagonals[:] = np.inf
+    # Row i + 1 is the cell of sample i, beyond the ends of the diagonal there is no way.
+    earlier, last, new = diagonals
+    earlier[0] = 0.0
+    for both in range(2 * n - 1):  # i + j
+        first = max(0, both - n + 1, (both - shift + 1) // 2)
+        end = min(n - 1, both, (both + shift) // 2) + 1
+        begin = first * (width - 2) + both + shift
+        along = slice(begin, begin + (end - first - 1) * (width - 2) + 1, width - 2)
+        cells = new[first + 1 : end + 1]
+        np.minimum(last[first:end], last[first + 1 : end + 1], out=cells)
+        np.minimum(cells, earlier[first:end], out=cells)
+        for lanes, cost in parts:
+            cells[:, lanes] += cost[along]
+        new[first] = np.inf
+        new[end + 1] = np.inf
+        earlier, last, new = last, new, earlier
+    return last[n]
