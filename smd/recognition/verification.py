@@ -10,8 +10,8 @@ import numpy as np
 
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.exemplar import BAND, Exemplar, faced
-from smd.recognition.traits import COURSES, MEASURES, Traits
-from smd.recognition.warping import Examples
+from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
+from smd.recognition.warping import Examples, Scratch
 
 TERMS = ("tokens", *COURSES, *MEASURES)
 """What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
@@ -40,9 +40,16 @@ GLANCE = 2
 enough to choose stretches; what they are called is decided by all samples."""
 
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
-_TELLING_FIRST = tuple(
-    COURSES.index(name) for name in ("flow_heading", "shape_heading", "flow_prop", "shape_prop")
+_SHAPE = COURSES.index("shape_heading")
+_CHEAP_FIRST = (
+    *(COURSES.index(name) for name in ("flow_heading", "flow_prop", "shape_prop")),
+    _SHAPE,  # is turned to fit first
 )
+_TELLING_FIRST = (_SHAPE, *_CHEAP_FIRST[:-1])
+
+PAIRS = 4096
+"""Of an action and a gesture, that are weighed together: what lies in between for them takes
+64 MiB, however long the recording."""
 
 _FREEDOM = 4.0
 """Of Student's distribution, which measures are taken to follow: what is far out is hardly more
@@ -106,8 +113,9 @@ class Verification:
         A course's term is its distance to the nearest example, as a multiple of what is usual; a
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
         its peak; the tokens' is the share that is wrong. Each is multiplied by its weight, and
-        none is negative. So the measures and the most telling courses come first, and the rest
-        are not looked for (`inf`) once the sum is above ``most``.
+        none is negative. So a pair is left as soon as what is known, and what the rest costs at
+        least (`warping.Examples.at_least`), are more than ``most`` together; what was not
+        looked for is `inf`.
 
         Parameters
         ----------
@@ -128,23 +136,53 @@ class Verification:
             ``(p, 9)``, in the order of `TERMS`.
         """
         terms = np.full((len(action), len(TERMS)), np.inf)
-        if not len(action):
-            return terms
+        by_action = np.argsort(action, kind="stable")
+        scratch = Scratch()
+        for begin in range(0, len(action), PAIRS):
+            some = by_action[begin : begin + PAIRS]
+            terms[some] = self._some_terms(
+                gestures, action[some], gesture[some], wrong[some], most[some], every, scratch
+            )
+        return terms
+
+    def _some_terms(
+        self,
+        gestures: Traits,
+        action: IntArray,
+        gesture: IntArray,
+        wrong: FloatArray,
+        most: FloatArray,
+        every: int,
+        scratch: Scratch,
+    ) -> FloatArray:
+        """Return `terms` of pairs that are ordered by action."""
+        terms = np.full((len(action), len(TERMS)), np.inf)
         terms[:, 0] = WEIGHTS[0] * wrong
         deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
         terms[:, _MEASURES] = WEIGHTS[_MEASURES] * _oddness(deviation)
-        total = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
-        by_action = np.argsort(action, kind="stable")
+        known = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
+        floor = np.zeros((len(action), len(COURSES)))  # what courses cost that are not warped yet
+        left = np.flatnonzero(known <= most)
+        shapes = np.zeros((0, SAMPLES // every, 12))
+        for i in _CHEAP_FIRST:
+            courses = gestures.courses[i][gesture[left], ::every]
+            if i == _SHAPE:
+                whole = gestures.courses[i][gesture[left]]
+                courses = shapes = faced(whole, self.central[action[left]])[:, ::every]
+            least = self.examples[every][i].at_least(courses, action[left])
+            floor[left, i] = self.unit[action[left], i] * least
+            within = known[left] + floor[left].sum(axis=1) <= most[left]
+            left = left[within]
+        shapes = shapes[within]
         for i in _TELLING_FIRST:
-            left = by_action[total[by_action] <= most[by_action]]
+            courses = shapes if i == _SHAPE else gestures.courses[i][gesture[left], ::every]
             unit = self.unit[action[left], i]
-            courses = gestures.courses[i][gesture[left]]
-            if COURSES[i] == "shape_heading":
-                courses = faced(courses, self.central[action[left]])
-            room = (most[left] - total[left]) / unit
-            far = self.examples[every][i].nearest(courses[:, ::every], action[left], room)
+            floor[left, i] = 0.0
+            room = (most[left] - known[left] - floor[left].sum(axis=1)) / unit
+            far = self.examples[every][i].nearest(courses, action[left], room, scratch)
             terms[left, 1 + i] = unit * far
-            total[left] += terms[left, 1 + i]
+            known[left] += terms[left, 1 + i]
+            left = left[known[left] + floor[left].sum(axis=1) <= most[left]]
         return terms
 
     def least_terms(

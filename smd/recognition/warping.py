@@ -42,6 +42,8 @@ class Examples:
     _shift: int = field(init=False)
     _windows: tuple[Single, ...] = field(init=False)
     _size: FloatArray = field(init=False)
+    _low: FloatArray = field(init=False)
+    _high: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
         courses = tuple(np.ascontiguousarray(each, dtype=np.float64) for each in self.courses)
@@ -51,8 +53,33 @@ class Examples:
         object.__setattr__(self, "_shift", shift)
         object.__setattr__(self, "_windows", tuple(_windows(each, shift) for each in courses))
         object.__setattr__(self, "_size", np.array(size))
+        low, high = (np.stack([end(each, axis=0) for each in courses]) for end in (np.min, np.max))
+        object.__setattr__(self, "_low", _least_in_reach(low, shift))
+        object.__setattr__(self, "_high", -_least_in_reach(-high, shift))
 
-    def nearest(self, courses: FloatArray, action: IntArray, most: FloatArray) -> FloatArray:
+    def at_least(self, courses: FloatArray, action: IntArray) -> FloatArray:
+        """Return ``(p,)``, what the `nearest` example of each is away at least, in far less time.
+
+        Each sample is paired with one within reach, and so is no nearer than the box around all
+        of those of all examples (Keogh's bound [1]_, one for all examples).
+
+        References
+        ----------
+        .. [1] E. Keogh, C. A. Ratanamahatana, "Exact Indexing of Dynamic Time Warping",
+           Knowledge and Information Systems 7, 2005.
+        """
+        outside = courses - np.clip(courses, self._low[action], self._high[action])
+        total = np.einsum("pnd,pnd->p", outside, outside)
+        # A little less, or rounding would lose an example that is just as far.
+        return (1.0 - 1e-9) * np.sqrt(total / courses.shape[1])
+
+    def nearest(
+        self,
+        courses: FloatArray,
+        action: IntArray,
+        most: FloatArray,
+        scratch: Scratch | None = None,
+    ) -> FloatArray:
         """Return ``(p,)``, the `alignment.distance` of p courses to the nearest example.
 
         First all examples are warped in single precision. What may be nearest, as far as its
@@ -67,9 +94,11 @@ class Examples:
             are from one to the next.
         most
             ``(p,)``, a distance above it is of no interest and comes out as infinity.
+        scratch
+            Memory to work in, if there is some from before.
         """
         nearest = np.full(len(courses), np.inf)
-        scratch = _Scratch()
+        scratch = scratch or Scratch()
         for part in self._slabs(action):
             blocks = list(_blocks(action[part]))
             ours = courses[part]
@@ -95,7 +124,7 @@ class Examples:
             first = last
 
     def _totals(
-        self, courses: FloatArray, action: IntArray, blocks: Sequence[slice], scratch: _Scratch
+        self, courses: FloatArray, action: IntArray, blocks: Sequence[slice], scratch: Scratch
     ) -> list[FloatArray]:
         """Return, for each block of courses of one action, the least sums to its examples."""
         p, n, d = courses.shape
@@ -135,8 +164,8 @@ class Examples:
         return total - error, total + error
 
 
-class _Scratch:
-    """Memory for results in between, asked for once: getting it takes as long as filling it."""
+class Scratch:
+    """Memory for results in between, kept: getting it anew takes as long as filling it."""
 
     def __init__(self) -> None:
         self._memory: dict[str, Single] = {}
@@ -166,6 +195,19 @@ def _windows(examples: FloatArray, shift: int) -> Single:
     return as_strided(rows, (n, (2 * shift + 1) * m, d + 2), rows.strides, writeable=False)
 
 
+def _least_in_reach(values: FloatArray, shift: int) -> FloatArray:
+    """Return ``(a, n, d)``, the least of what each of n samples may be paired with.
+
+    The first sample is always paired with the first one, and the last with the last.
+    """
+    least = values.copy()
+    for by in range(1, shift + 1):
+        np.minimum(least[:, by:], values[:, :-by], out=least[:, by:])
+        np.minimum(least[:, :-by], values[:, by:], out=least[:, :-by])
+    least[:, [0, -1]] = values[:, [0, -1]]
+    return least
+
+
 def _blocks(action: IntArray) -> Iterator[slice]:
     """Yield the stretches of equal numbers."""
     edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), len(action)]
@@ -173,7 +215,7 @@ def _blocks(action: IntArray) -> Iterator[slice]:
         yield slice(first, last)
 
 
-def _least_sums(costs: Sequence[Single], scratch: _Scratch) -> Single:
+def _least_sums(costs: Sequence[Single], scratch: Scratch) -> Single:
     """Return ``(lanes,)``, the least sum of costs on a way from the first pair to the last one.
 
     The table of dynamic time warping, diagonal by diagonal, all lanes at once::
