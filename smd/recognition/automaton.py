@@ -12,7 +12,7 @@ from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.token_costs import TokenCosts, unit_costs
+from smd.recognition.token_costs import TokenCosts, codes_of, unit_costs
 from smd.recognition.tokens import Token
 
 FAR = 1 << 30
@@ -168,10 +168,12 @@ def _glushkov(
 def _least_changes(tokens: list[Token], follow: set[tuple[int, int]]) -> IntArray:
     """Return ``(p, p)``: the least number of changes of token on a way between two positions."""
     p = len(tokens)
-    changes = np.full((p, p), FAR, dtype=np.int64)
-    for a, b in follow:
-        changes[a, b] = tokens[a] != tokens[b]
+    # No way has p changes; the smaller the numbers, the more of them are added at once.
+    changes = np.full((p, p), p, dtype=np.min_scalar_type(2 * p))
+    before, after = np.array(list(follow), dtype=np.int64).reshape(-1, 2).T
+    kind = np.unique(codes_of(tokens), return_inverse=True)[1]
+    changes[before, after] = kind[before] != kind[after]
     np.fill_diagonal(changes, 0)
     for via in range(p):  # Floyd and Warshall
-        changes = np.minimum(changes, changes[:, via, None] + changes[None, via, :])
-    return np.minimum(changes, FAR)
+        np.minimum(changes, changes[:, via, None] + changes[via], out=changes)
+    return np.where(changes < p, changes.astype(np.int64), FAR)
