@@ -11,7 +11,7 @@ import numpy as np
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.exemplar import BAND, Exemplar, faced
 from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
-from smd.recognition.warping import Examples, Scratch
+from smd.recognition.warping import Examples
 
 TERMS = ("tokens", *COURSES, *MEASURES)
 """What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
@@ -137,11 +137,10 @@ class Verification:
         """
         terms = np.full((len(action), len(TERMS)), np.inf)
         by_action = np.argsort(action, kind="stable")
-        scratch = Scratch()
         for begin in range(0, len(action), PAIRS):
             some = by_action[begin : begin + PAIRS]
             terms[some] = self._some_terms(
-                gestures, action[some], gesture[some], wrong[some], most[some], every, scratch
+                gestures, action[some], gesture[some], wrong[some], most[some], every
             )
         return terms
 
@@ -153,7 +152,6 @@ class Verification:
         wrong: FloatArray,
         most: FloatArray,
         every: int,
-        scratch: Scratch,
     ) -> FloatArray:
         """Return `terms` of pairs that are ordered by action."""
         terms = np.full((len(action), len(TERMS)), np.inf)
@@ -179,7 +177,7 @@ class Verification:
             unit = self.unit[action[left], i]
             floor[left, i] = 0.0
             room = (most[left] - known[left] - floor[left].sum(axis=1)) / unit
-            far = self.examples[every][i].nearest(courses, action[left], room, scratch)
+            far = self.examples[every][i].nearest(courses, action[left], room)
             terms[left, 1 + i] = unit * far
             known[left] += terms[left, 1 + i]
             left = left[known[left] + floor[left].sum(axis=1) <= most[left]]

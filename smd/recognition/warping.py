@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -16,12 +16,12 @@ from smd.recognition.alignment import pair_distances, widest_shift
 
 Single: TypeAlias = NDArray[np.float32]
 
-LANES = 4096
+LANES = 8192
 """Pairs of a course and an example that are warped together: enough that array operations cost
 more than calling them, few enough that their costs stay in the processor's cache."""
 
-FEW = 4
-"""Actions whose costs are taken from where they are; of more, they are copied together first."""
+CELLS = 1 << 17
+"""So many costs of pairs of samples are worked out at a time: they stay in the cache as well."""
 
 _OUT_OF_REACH = np.float32(1e9)
 _ROUNDING = float(np.finfo(np.float32).eps)
@@ -78,7 +78,6 @@ class Examples:
         courses: FloatArray,
         action: IntArray,
         most: FloatArray,
-        scratch: Scratch | None = None,
     ) -> FloatArray:
         """Return ``(p,)``, the `alignment.distance` of p courses to the nearest example.
 
@@ -94,15 +93,12 @@ class Examples:
             are from one to the next.
         most
             ``(p,)``, a distance above it is of no interest and comes out as infinity.
-        scratch
-            Memory to work in, if there is some from before.
         """
         nearest = np.full(len(courses), np.inf)
-        scratch = scratch or Scratch()
         for part in self._slabs(action):
             blocks = list(_blocks(action[part]))
             ours = courses[part]
-            totals = self._totals(ours, action[part], blocks, scratch)
+            totals = self._totals(ours, action[part], blocks)
             for own, total in zip(blocks, totals, strict=True):
                 index = int(action[part][own.start])
                 low, high = self._bounds(ours[own], index, total)
@@ -124,7 +120,7 @@ class Examples:
             first = last
 
     def _totals(
-        self, courses: FloatArray, action: IntArray, blocks: Sequence[slice], scratch: Scratch
+        self, courses: FloatArray, action: IntArray, blocks: Sequence[slice]
     ) -> list[FloatArray]:
         """Return, for each block of courses of one action, the least sums to its examples."""
         p, n, d = courses.shape
@@ -133,18 +129,22 @@ class Examples:
         ours[:, :d] = courses.transpose(1, 2, 0)
         ours[:, d] = 1.0
         ours[:, d + 1] = np.square(courses).sum(axis=-1).T
-        width = 2 * self._shift + 1
         windows = [self._windows[int(action[own.start])] for own in blocks]
-        costs = []
-        for number, (own, window) in enumerate(zip(blocks, windows, strict=True)):
-            cost = scratch.array(f"cost {number}", (n, window.shape[1], own.stop - own.start))
-            np.matmul(window, ours[:, :, own], out=cost)
-            costs.append(cost.reshape(n, width, -1))
-        if len(costs) > FEW:
-            costs = [np.concatenate(costs, axis=2)]
-        least = _least_sums(costs, scratch)
         counts = [own.stop - own.start for own in blocks]
+        width = 2 * self._shift + 1
         lanes = [w.shape[1] // width * count for w, count in zip(windows, counts, strict=True)]
+        rows = max(CELLS // (width * sum(lanes)), 1)
+
+        def costs() -> Iterator[Single]:
+            for begin in range(0, n, rows):
+                some = slice(begin, begin + rows)
+                each = [
+                    np.matmul(window[some], ours[some, :, own]).reshape(-1, width, lane)
+                    for window, own, lane in zip(windows, blocks, lanes, strict=True)
+                ]
+                yield from each[0] if len(each) == 1 else np.concatenate(each, axis=2)
+
+        least = _least_sums(costs(), width, sum(lanes))
         return [
             part.reshape(-1, count).T.astype(np.float64)
             for part, count in zip(np.split(least, np.cumsum(lanes)[:-1]), counts, strict=True)
@@ -162,20 +162,6 @@ class Examples:
         size = np.square(courses).sum(axis=-1).max(axis=1)[:, None] + self._size[action]
         error = 2 * n * _ROUNDING * (2 * (d + 3) * size + total)
         return total - error, total + error
-
-
-class Scratch:
-    """Memory for results in between, kept: getting it anew takes as long as filling it."""
-
-    def __init__(self) -> None:
-        self._memory: dict[str, Single] = {}
-
-    def array(self, name: str, shape: tuple[int, ...]) -> Single:
-        """Return an array that holds anything, and shares its memory with the last of its name."""
-        size = int(np.prod(shape))
-        if name not in self._memory or self._memory[name].size < size:
-            self._memory[name] = np.empty(size, np.float32)
-        return self._memory[name][:size].reshape(shape)
 
 
 def _windows(examples: FloatArray, shift: int) -> Single:
@@ -215,42 +201,28 @@ def _blocks(action: IntArray) -> Iterator[slice]:
         yield slice(first, last)
 
 
-def _least_sums(costs: Sequence[Single], scratch: Scratch) -> Single:
+def _least_sums(costs: Iterable[Single], width: int, lanes: int) -> Single:
     """Return ``(lanes,)``, the least sum of costs on a way from the first pair to the last one.
 
-    The table of dynamic time warping, diagonal by diagonal, all lanes at once::
+    The table of dynamic time warping, row by row, all lanes at once::
 
         sum(i, j) = cost(i, j) + min(sum(i - 1, j), sum(i, j - 1), sum(i - 1, j - 1))
 
     Parameters
     ----------
     costs
-        Of the lanes, in parts, each ``(n, 2 shift + 1, some)``, of pairing sample i with sample
-        i + k - shift; shift at least 1.
+        For each sample i, ``(width, lanes)``, of pairing it with sample i + k - width // 2.
     """
-    n, width, _ = costs[0].shape
-    shift = width // 2
-    ends = np.cumsum([cost.shape[2] for cost in costs]).tolist()
-    parts = [
-        (slice(end - cost.shape[2], end), cost.reshape(n * width, -1))
-        for end, cost in zip(ends, costs, strict=True)
-    ]
-    diagonals = scratch.array("diagonals", (3, n + 2, ends[-1]))
-    diagonals[:] = np.inf
-    # Row i + 1 is the cell of sample i, beyond the ends of the diagonal there is no way.
-    earlier, last, new = diagonals
-    earlier[0] = 0.0
-    for both in range(2 * n - 1):  # i + j
-        first = max(0, both - n + 1, (both - shift + 1) // 2)
-        end = min(n - 1, both, (both + shift) // 2) + 1
-        begin = first * (width - 2) + both + shift
-        along = slice(begin, begin + (end - first - 1) * (width - 2) + 1, width - 2)
-        cells = new[first + 1 : end + 1]
-        np.minimum(last[first:end], last[first + 1 : end + 1], out=cells)
-        np.minimum(cells, earlier[first:end], out=cells)
-        for lanes, cost in parts:
-            cells[:, lanes] += cost[along]
-        new[first] = np.inf
-        new[end + 1] = np.inf
-        earlier, last, new = last, new, earlier
-    return last[n]
+    # One more, beyond which there is no way; from row to row, sample j moves one place down.
+    sums, before = np.full((2, width + 1, lanes), np.inf, np.float32)
+    sums[width // 2] = 0.0
+    for number, cost in enumerate(costs):
+        if number:
+            sums, before = before, sums
+            np.minimum(before[:-1], before[1:], out=sums[:-1])
+        sums[0] += cost[0]
+        for k in range(1, width):
+            here = sums[k]
+            np.minimum(here, sums[k - 1], out=here)
+            here += cost[k]
+    return sums[width // 2]

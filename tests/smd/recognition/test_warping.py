@@ -23,10 +23,10 @@ def nearest_by_tables(examples, courses, action, band):
 
 @pytest.mark.parametrize(("samples", "band"), [(4, 0.25), (9, 0.25), (12, 0.6), (8, 1.0)])
 @pytest.mark.parametrize("lanes", [1, 30, 4096])
-@pytest.mark.parametrize("few", [1, 100])
-def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, lanes, few, monkeypatch):
+@pytest.mark.parametrize("cells", [1, 1000])
+def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, lanes, cells, monkeypatch):
     monkeypatch.setattr(warping, "LANES", lanes)
-    monkeypatch.setattr(warping, "FEW", few)
+    monkeypatch.setattr(warping, "CELLS", cells)
     rng = np.random.default_rng(samples)
     examples = tuple(courses_at_random(rng, count, samples, 3) for count in (3, 1, 4))
     courses = courses_at_random(rng, 14, samples, 3)
