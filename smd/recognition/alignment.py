@@ -118,30 +118,23 @@ def distance_table(a: FloatArray, b: FloatArray, *, band: float | None = None) -
     return np.asarray(root, np.float64).reshape(p, m) / np.sqrt(stacked.shape[1])
 
 
-def pair_distances(
-    a: FloatArray, b: FloatArray, pairs: IntArray, *, band: float | None = None
-) -> FloatArray:
-    """Return ``(k,)``, the `distance` of k pairs of one of p courses and one of m.
+def pair_distances(a: FloatArray, b: FloatArray, *, band: float | None = None) -> FloatArray:
+    """Return ``(k,)``, the `distance` of each of k courses to the one of b in its place.
 
     Parameters
     ----------
     a, b
-        ``(p, n, d)`` and ``(m, n, d)``, d at least 2, finite.
-    pairs
-        ``(k, 2)``, the numbers of both.
+        ``(k, n, d)``, d at least 2, finite.
     band
         As in `distance`.
     """
     from dtaidistance import dtw_cc
 
-    if not len(pairs):
-        return np.zeros(0)
-    ours = list(np.require(a, np.float64, ("C", "W")))
-    theirs = list(np.require(b, np.float64, ("C", "W")))
+    ours, theirs = (np.require(each, np.float64, ("C", "W")) for each in (a, b))
     # The package's own door to this function checks for longer than it computes.
     options = {} if band is None else {"window": widest_shift(a.shape[1], band) + 1}
-    roots = [dtw_cc.distance_ndim(ours[i], theirs[j], **options) for i, j in pairs.tolist()]
-    return np.array(roots) / np.sqrt(a.shape[1])
+    roots = [dtw_cc.distance_ndim(x, y, **options) for x, y in zip(ours, theirs, strict=True)]
+    return np.array(roots, dtype=np.float64) / np.sqrt(a.shape[1])
 
 
 def widest_shift(samples: int, band: float) -> int:

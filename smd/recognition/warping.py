@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -39,23 +39,30 @@ class Examples:
 
     courses: tuple[FloatArray, ...]
     band: float
+    _first: IntArray = field(init=False)
+    _all: FloatArray = field(init=False)
+    _size: FloatArray = field(init=False)
     _shift: int = field(init=False)
     _windows: tuple[Single, ...] = field(init=False)
-    _size: FloatArray = field(init=False)
     _low: FloatArray = field(init=False)
     _high: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
-        courses = tuple(np.ascontiguousarray(each, dtype=np.float64) for each in self.courses)
-        shift = widest_shift(courses[0].shape[1], self.band)
-        size = [float(np.square(each).sum(axis=-1).max()) for each in courses]
-        object.__setattr__(self, "courses", courses)
-        object.__setattr__(self, "_shift", shift)
-        object.__setattr__(self, "_windows", tuple(_windows(each, shift) for each in courses))
-        object.__setattr__(self, "_size", np.array(size))
-        low, high = (np.stack([end(each, axis=0) for each in courses]) for end in (np.min, np.max))
-        object.__setattr__(self, "_low", _least_in_reach(low, shift))
-        object.__setattr__(self, "_high", -_least_in_reach(-high, shift))
+        every = np.concatenate(self.courses)
+        shift = widest_shift(every.shape[1], self.band)
+        low, high = (
+            np.stack([end(each, axis=0) for each in self.courses]) for end in (np.min, np.max)
+        )
+        for name, value in {
+            "_first": np.cumsum([0, *map(len, self.courses)]),
+            "_all": every,
+            "_size": np.array([_size(each).max() for each in self.courses]),
+            "_shift": shift,
+            "_windows": tuple(_windows(each, shift) for each in self.courses),
+            "_low": _least_in_reach(low, shift),
+            "_high": -_least_in_reach(-high, shift),
+        }.items():
+            object.__setattr__(self, name, value)
 
     def at_least(self, courses: FloatArray, action: IntArray) -> FloatArray:
         """Return ``(p,)``, what the `nearest` example of each is away at least, in far less time.
@@ -96,22 +103,26 @@ class Examples:
         """
         nearest = np.full(len(courses), np.inf)
         for part in self._slabs(action):
-            blocks = list(_blocks(action[part]))
-            ours = courses[part]
-            totals = self._totals(ours, action[part], blocks)
-            for own, total in zip(blocks, totals, strict=True):
-                index = int(action[part][own.start])
-                low, high = self._bounds(ours[own], index, total)
-                bound = np.minimum(high.min(axis=1), np.square(most[part][own]) * ours.shape[1])
-                pairs = np.argwhere(low <= bound[:, None])
-                exact = pair_distances(ours[own], self.courses[index], pairs, band=self.band)
-                np.minimum.at(nearest, part.start + own.start + pairs[:, 0], exact)
+            ours, own = courses[part], action[part]
+            total = self._totals(ours, own)
+            # A sample's cost is a scalar product of d + 2 numbers, whose terms add up to no more
+            # than twice the squares of both sizes; a way adds up fewer than 2 n costs.
+            n, d = ours.shape[1:]
+            size = (_size(ours) + self._size[own])[:, None]
+            share = 2 * n * _ROUNDING
+            error = share * 2 * (d + 3) * size
+            nearest_at_most = ((1.0 + share) * total + error).min(axis=1)
+            wanted = np.minimum(nearest_at_most, n * np.square(most[part]))[:, None]
+            pair, example = np.nonzero((1.0 - share) * total - error <= wanted)
+            theirs = self._all[self._first[own[pair]] + example]
+            exact = pair_distances(ours[pair], theirs, band=self.band)
+            np.minimum.at(nearest, part.start + pair, exact)
         nearest[nearest > most] = np.inf
         return nearest
 
     def _slabs(self, action: IntArray) -> Iterator[slice]:
         """Yield parts of p pairs, in order, of about `LANES` lanes each."""
-        lanes = np.cumsum([len(self.courses[index]) for index in action.tolist()])
+        lanes = np.cumsum(np.diff(self._first)[action])
         first = 0
         while first < len(action):
             before = lanes[first - 1] if first else 0
@@ -119,20 +130,25 @@ class Examples:
             yield slice(first, last)
             first = last
 
-    def _totals(
-        self, courses: FloatArray, action: IntArray, blocks: Sequence[slice]
-    ) -> list[FloatArray]:
-        """Return, for each block of courses of one action, the least sums to its examples."""
+    def _totals(self, courses: FloatArray, action: IntArray) -> FloatArray:
+        """Return ``(p, m)``, the least sums of p courses to their actions' examples, at most m.
+
+        They are those of single precision, and infinite where there are fewer examples.
+        """
         p, n, d = courses.shape
         # (a, 1, |a|^2) times (-2 b, |b|^2, 1) is the square of the distance of a and b
         ours = np.empty((n, d + 2, p), np.float32)
         ours[:, :d] = courses.transpose(1, 2, 0)
         ours[:, d] = 1.0
         ours[:, d + 1] = np.square(courses).sum(axis=-1).T
+        edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), p]
+        blocks = [slice(first, last) for first, last in pairwise(edges)]
         windows = [self._windows[int(action[own.start])] for own in blocks]
-        counts = [own.stop - own.start for own in blocks]
         width = 2 * self._shift + 1
-        lanes = [w.shape[1] // width * count for w, count in zip(windows, counts, strict=True)]
+        lanes = [
+            (own.stop - own.start) * window.shape[1] // width
+            for own, window in zip(blocks, windows, strict=True)
+        ]
         rows = max(CELLS // (width * sum(lanes)), 1)
 
         def costs() -> Iterator[Single]:
@@ -144,24 +160,17 @@ class Examples:
                 ]
                 yield from each[0] if len(each) == 1 else np.concatenate(each, axis=2)
 
-        least = _least_sums(costs(), width, sum(lanes))
-        return [
-            part.reshape(-1, count).T.astype(np.float64)
-            for part, count in zip(np.split(least, np.cumsum(lanes)[:-1]), counts, strict=True)
-        ]
+        sums = np.split(_least_sums(costs(), width, sum(lanes)), np.cumsum(lanes)[:-1])
+        totals = np.full((p, int(np.diff(self._first).max())), np.inf)
+        for own, least in zip(blocks, sums, strict=True):
+            count = own.stop - own.start
+            totals[own, : len(least) // count] = least.reshape(-1, count).T
+        return totals
 
-    def _bounds(
-        self, courses: FloatArray, action: int, total: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return what sums in single precision may be, at least and at most.
 
-        A sample's cost is a scalar product of d + 2 numbers, whose terms add up to no more than
-        twice the squares of both sizes; a path adds up fewer than 2 n costs.
-        """
-        _, n, d = courses.shape
-        size = np.square(courses).sum(axis=-1).max(axis=1)[:, None] + self._size[action]
-        error = 2 * n * _ROUNDING * (2 * (d + 3) * size + total)
-        return total - error, total + error
+def _size(courses: FloatArray) -> FloatArray:
+    """Return ``(m,)``, the largest square of a sample's distance from the origin."""
+    return np.asarray(np.square(courses).sum(axis=-1).max(axis=-1))
 
 
 def _windows(examples: FloatArray, shift: int) -> Single:
@@ -192,13 +201,6 @@ def _least_in_reach(values: FloatArray, shift: int) -> FloatArray:
         np.minimum(least[:, :-by], values[:, by:], out=least[:, :-by])
     least[:, [0, -1]] = values[:, [0, -1]]
     return least
-
-
-def _blocks(action: IntArray) -> Iterator[slice]:
-    """Yield the stretches of equal numbers."""
-    edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), len(action)]
-    for first, last in pairwise(edges):
-        yield slice(first, last)
 
 
 def _least_sums(costs: Iterable[Single], width: int, lanes: int) -> Single:
