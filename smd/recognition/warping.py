@@ -63,6 +63,8 @@ class Examples:
             "_high": -_least_in_reach(-high, shift),
         }.items():
             object.__setattr__(self, name, value)
+        # Once for nothing: what is loaded when it is first used is not to keep a player waiting.
+        self.nearest(every[:1], np.zeros(1, np.int64), np.zeros(1))
 
     def at_least(self, courses: FloatArray, action: IntArray) -> FloatArray:
         """Return ``(p,)``, what the `nearest` example of each is away at least, in far less time.
