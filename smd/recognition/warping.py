@@ -23,6 +23,11 @@ more than calling them, few enough that their costs stay in the processor's cach
 CELLS = 1 << 17
 """So many costs of pairs of samples are worked out at a time: they stay in the cache as well."""
 
+ONE_THREAD = 1 << 18
+"""Multiplications in a matrix product up to which OpenBLAS leaves it to one thread. Products of
+thousandths of a second gain nothing from more, and lose much where other programs run: on two
+busy cores threads that wait for each other took three times as long."""
+
 _OUT_OF_REACH = np.float32(1e9)
 _ROUNDING = float(np.finfo(np.float32).eps)
 
@@ -132,6 +137,15 @@ class Examples:
             yield slice(first, last)
             first = last
 
+    def _blocks(self, action: IntArray) -> Iterator[slice]:
+        """Yield stretches of pairs of one action, each small enough for one thread of BLAS."""
+        edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), len(action)]
+        for first, last in pairwise(edges):
+            _, costs, numbers = self._windows[int(action[first])].shape
+            count = max(ONE_THREAD // (costs * numbers), 1)
+            for begin in range(first, last, count):
+                yield slice(begin, min(begin + count, last))
+
     def _totals(self, courses: FloatArray, action: IntArray) -> FloatArray:
         """Return ``(p, m)``, the least sums of p courses to their actions' examples, at most m.
 
@@ -143,8 +157,7 @@ class Examples:
         ours[:, :d] = courses.transpose(1, 2, 0)
         ours[:, d] = 1.0
         ours[:, d + 1] = np.square(courses).sum(axis=-1).T
-        edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), p]
-        blocks = [slice(first, last) for first, last in pairwise(edges)]
+        blocks = list(self._blocks(action))
         windows = [self._windows[int(action[own.start])] for own in blocks]
         width = 2 * self._shift + 1
         lanes = [
