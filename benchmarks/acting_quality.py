@@ -8,23 +8,23 @@ from typing import NamedTuple
 
 import numpy as np
 
+from actions_library.cast import cast_of
 from actions_library.library import Library
 from smd.character.clip import Clip
 from smd.character.kinematics import joints_in_world
 from smd.character.skeleton import Skeleton
 from smd.doodle import Recording
-from smd.geometry.arrays import BoolArray, FloatArray, IntArray
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
-from smd.score import Score
 from smd.transfer.acting import acted_contacts, own_poses, rows_of
 from smd.transfer.legs import feet_of, legs_of
 from smd.transfer.move import Move
 from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
-from smd.transfer.perform import idling_aheads, moves_of
+from smd.transfer.perform import entrances, kept_apart
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
-from smd.transfer.repertoire import Piece, repertoire
+from smd.transfer.repertoire import Piece
 from smd.transfer.stage import stage_for
 from smd.transfer.standing import standing
 
@@ -33,6 +33,9 @@ LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
 
 ON_GROUND_M = 0.005
 """Height of a sole up to which it is on the ground."""
+
+RATE_HZ = 60.0
+"""Frames a second of all that is measured."""
 
 POP_DEG = 8.0
 """A turn of a joint from one frame to the next, at 60 Hz, that its clip does not have."""
@@ -84,21 +87,18 @@ class Played(NamedTuple):
         return Poses(self.actor.rotation_xyzw, self.actor.translation_m)
 
 
-def played(
-    performance: Performance, score: Score, recording: Recording, library: Library
-) -> Iterator[Played]:
+def played(performance: Performance, recording: Recording, library: Library) -> Iterator[Played]:
     """Yield the actors of a performance, in full Effort, with their moves."""
+    score = performance.score
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    phrases = [phrase for part in score.performers for phrase in part.phrases]
-    pieces = repertoire(library, phrases, expressiveness=1.0)
-    feet = tuple(leg.foot for leg in pieces.legs)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
-    for actor, ahead in zip(performance.actors, idling_aheads(), strict=False):
-        clock_s = float(time_s[0]) - ahead * pieces.idle.clip.duration_s
-        moves = moves_of(actor.part, recording, stage, pieces, time_s, clock_s=clock_s)
-        stands, _ = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
+    cast = cast_of(library)
+    alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop")
+    for actor, one in zip(performance.actors, kept_apart(alone, cast), strict=True):
+        idle, feet = one.pieces.idle, tuple(leg.foot for leg in one.pieces.legs)
+        stands, _ = acted_contacts(one.moves, time_s, idle, feet, clock_s=one.clock_s)
         path = ground_path(recording.of(actor.device), stage)
-        yield Played(actor, time_s, moves, pieces.idle, clock_s, path, feet, stands)
+        yield Played(actor, time_s, one.moves, idle, one.clock_s, path, feet, stands)
 
 
 def measured_feet(
@@ -121,6 +121,32 @@ def measured_feet(
             labelled.append(_speeds(point, on & bears & (up < ON_GROUND_M), rate_hz))
         toes.append(_speeds(ball, ball[:, 1] < LOW_TOES_M, rate_hz))
     return Feet(np.concatenate(labelled), np.concatenate(near), np.concatenate(toes), lowest)
+
+
+def toes_of_clips_m_s(seen: Played) -> FloatArray:
+    """Return speeds of low toes as the clips have them, played as fast as they are here.
+
+    A clip that is played twice as fast has toes twice as fast: what is beyond that is transfer's.
+    """
+    legs = legs_of(seen.actor.character.skeleton, seen.feet)
+    found = [np.zeros(0)]
+    for move, rows in zip(seen.moves, rows_of(seen.moves, seen.time_s), strict=True):
+        if rows.stop - rows.start < 2:
+            continue
+        clip, last = move.piece.clip, move.piece.last_frame
+        frame = move.frame_at(seen.time_s[rows])
+        middle = 0.5 * (frame[1:] + frame[:-1])
+        middle = np.mod(middle, last) if clip.cyclic else np.clip(middle, 0.0, last)
+        pace = np.diff(frame) * move.presence_at(seen.time_s[rows])[1:]
+        local = clip.rotation_xyzw, clip.translation_m
+        foot_q, ankle = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+        for i, leg in enumerate(legs):
+            ball = ankle[:, i] + rotate(foot_q[:, i], leg.ball_m)
+            steps = np.hypot(*np.diff(ball, axis=0)[:, [0, 2]].T)  # a frame of the clip
+            speed = np.interp(middle, np.arange(len(steps)) + 0.5, steps) * pace * RATE_HZ
+            height = np.interp(middle, np.arange(len(ball)), ball[:, 1])
+            found.append(speed[height < LOW_TOES_M])
+    return np.concatenate(found)
 
 
 def feet_of_clip(clip: Clip) -> Feet | None:
@@ -210,20 +236,21 @@ def pops(seen: Played) -> tuple[int, int, float]:
     return int(np.count_nonzero(excess > POP_DEG)), excess.size, float(excess.max())
 
 
-def accelerations(seen: Played, rate_hz: float) -> tuple[FloatArray, BoolArray]:
-    """Return each joint's angular acceleration ``(m, j)``, deg/s², and which are at a boundary."""
+def accelerations(seen: Played) -> tuple[FloatArray, FloatArray]:
+    """Return the joints' angular accelerations, deg/s², inside phrases and across boundaries.
+
+    Returns
+    -------
+    inside, across
+        ``(m, j)`` each.
+    """
     q = seen.actor.rotation_xyzw[:, 1:]
-    speed = np.degrees(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))) * rate_hz
-    acceleration = np.linalg.norm(np.diff(speed, axis=0), axis=-1) * rate_hz
-    at = np.zeros(len(acceleration), dtype=bool)
-    at[boundary_frames(seen, rate_hz)] = True
-    return acceleration, at
-
-
-def boundary_frames(seen: Played, rate_hz: float) -> IntArray:
-    """Return the rows of `accelerations` that look across a phrase's start or end."""
-    phrases = seen.actor.part.phrases
-    edges_s = np.array([edge for phrase in phrases for edge in (phrase.start_s, phrase.end_s)])
-    frames = np.ceil((edges_s - seen.time_s[0]) * rate_hz).astype(np.int64)
-    rows = np.concatenate([frames - 2, frames - 1])
-    return np.unique(rows[(rows >= 0) & (rows < len(seen.time_s) - 2)])
+    speed = np.degrees(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))) * RATE_HZ
+    acceleration = np.linalg.norm(np.diff(speed, axis=0), axis=-1) * RATE_HZ
+    time_s = seen.time_s[1:-1]
+    acts, at = np.zeros(len(time_s), dtype=bool), np.zeros(len(time_s), dtype=bool)
+    for phrase in seen.actor.part.phrases:
+        acts |= (time_s > phrase.start_s) & (time_s < phrase.end_s)
+        for edge_s in (phrase.start_s, phrase.end_s):
+            at |= np.abs(time_s - edge_s) < 1.0 / RATE_HZ
+    return acceleration[acts & ~at], acceleration[at]

@@ -95,9 +95,7 @@ def distances(
     return np.array(found, dtype=np.float64)
 
 
-def distance_table(
-    a: FloatArray, b: FloatArray, *, band: float | None = None, most: float = np.inf
-) -> FloatArray:
+def distance_table(a: FloatArray, b: FloatArray, *, band: float | None = None) -> FloatArray:
     """Return the `distance` of each of p courses to each of m, ``(p, m)``, in one call of C code.
 
     Parameters
@@ -106,8 +104,6 @@ def distance_table(
         ``(p, n, d)`` and ``(m, n, d)``, d at least 2, finite.
     band
         As in `distance`.
-    most
-        A distance above it is of no interest: it may come out as infinity, and sooner.
     """
     from dtaidistance import dtw
 
@@ -116,13 +112,36 @@ def distance_table(
         return np.zeros((p, m))
     stacked = np.ascontiguousarray(np.concatenate([a, b]), dtype=np.float64)
     options = _options(stacked[0], stacked[-1], band)
-    if np.isfinite(most):
-        # A little more, or rounding would lose a distance that is just as far.
-        options["max_dist"] = 1e-9 + 1.000001 * most * float(np.sqrt(stacked.shape[1]))
     root = dtw.distance_matrix_fast(
         stacked, block=((0, p), (p, p + m)), compact=True, parallel=False, **options
     )
     return np.asarray(root, np.float64).reshape(p, m) / np.sqrt(stacked.shape[1])
+
+
+def pair_distances(a: FloatArray, b: FloatArray, *, band: float | None = None) -> FloatArray:
+    """Return ``(k,)``, the `distance` of each of k courses to the one of b in its place.
+
+    Parameters
+    ----------
+    a, b
+        ``(k, n, d)``, d at least 2, finite.
+    band
+        As in `distance`.
+    """
+    from dtaidistance import dtw_cc
+
+    ours, theirs = (np.require(each, np.float64, ("C", "W")) for each in (a, b))
+    # The package's own door to this function checks for longer than it computes.
+    options = {} if band is None else {"window": widest_shift(a.shape[1], band) + 1}
+    roots = [dtw_cc.distance_ndim(x, y, **options) for x, y in zip(ours, theirs, strict=True)]
+    return np.array(roots, dtype=np.float64) / np.sqrt(a.shape[1])
+
+
+def widest_shift(samples: int, band: float) -> int:
+    """Return how many samples apart paired ones may be."""
+    if not 0.0 <= band <= 1.0:
+        raise DoodleError(f"band: expected a share in [0, 1], got {band!r}")
+    return int(band * samples + 1e-9)
 
 
 def _course(name: str, value: ArrayLike) -> FloatArray:
@@ -155,8 +174,6 @@ def _options(a: FloatArray, b: FloatArray, band: float | None) -> dict[str, Any]
     if a.shape[1] > 1:
         options["use_ndim"] = True
     if band is not None:
-        if not 0.0 <= band <= 1.0:
-            raise DoodleError(f"band: expected a share in [0, 1], got {band!r}")
         # The package allows shifts below its window.
-        options["window"] = int(band * max(len(a), len(b)) + 1e-9) + 1
+        options["window"] = widest_shift(max(len(a), len(b)), band) + 1
     return options

@@ -12,7 +12,7 @@ from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.token_costs import TokenCosts, unit_costs
+from smd.recognition.token_costs import TokenCosts, codes_of, unit_costs
 from smd.recognition.tokens import Token
 
 FAR = 1 << 30
@@ -68,7 +68,7 @@ class Automaton:
 def compile_automaton(pattern: Pattern) -> Automaton:
     """Compile a pattern; for m occurrences of tokens this takes O(m^3) time, once."""
     tokens: list[Token] = []
-    follow: set[tuple[int, int]] = set()
+    follow: list[tuple[set[int], set[int]]] = []
     first, last, _ = _glushkov(pattern.root, tokens, follow)
     changes = _least_changes(tokens, follow)
     enter = changes[sorted(first)].min(axis=0)
@@ -132,11 +132,12 @@ def _arrivals(reached: FloatArray, step: IntArray) -> FloatArray:
 
 
 def _glushkov(
-    node: ast.Node, tokens: list[Token], follow: set[tuple[int, int]]
+    node: ast.Node, tokens: list[Token], follow: list[tuple[set[int], set[int]]]
 ) -> tuple[set[int], set[int], bool]:
     """Return an expression's first and last positions and whether it may be empty.
 
-    Its positions are added to ``tokens``, the pairs that may stand side by side to ``follow``.
+    Its positions are added to ``tokens``; to ``follow``, sets of positions each of which may
+    stand before each of another set.
     """
     match node:
         case Token():
@@ -147,7 +148,7 @@ def _glushkov(
             first, last, empty = _glushkov(parts[0], tokens, follow)
             for part in parts[1:]:
                 part_first, part_last, part_empty = _glushkov(part, tokens, follow)
-                follow |= {(a, b) for a in last for b in part_first}
+                follow.append((last, part_first))
                 first = first | part_first if empty else first
                 last = last | part_last if part_empty else part_last
                 empty = empty and part_empty
@@ -161,17 +162,20 @@ def _glushkov(
             )
         case ast.Repeat(body, optional):
             first, last, empty = _glushkov(body, tokens, follow)
-            follow |= {(a, b) for a in last for b in first}
+            follow.append((last, first))
             return first, last, empty or optional
 
 
-def _least_changes(tokens: list[Token], follow: set[tuple[int, int]]) -> IntArray:
+def _least_changes(tokens: list[Token], follow: Sequence[tuple[set[int], set[int]]]) -> IntArray:
     """Return ``(p, p)``: the least number of changes of token on a way between two positions."""
     p = len(tokens)
-    changes = np.full((p, p), FAR, dtype=np.int64)
-    for a, b in follow:
-        changes[a, b] = tokens[a] != tokens[b]
+    # No way has p changes; the smaller the numbers, the more of them are added at once.
+    changes = np.full((p, p), p, dtype=np.min_scalar_type(2 * p))
+    codes = codes_of(tokens)
+    for before, after in follow:
+        pairs = np.ix_(sorted(before), sorted(after))
+        changes[pairs] = codes[pairs[0]] != codes[pairs[1]]
     np.fill_diagonal(changes, 0)
     for via in range(p):  # Floyd and Warshall
-        changes = np.minimum(changes, changes[:, via, None] + changes[None, via, :])
-    return np.minimum(changes, FAR)
+        np.minimum(changes, changes[:, via, None] + changes[via], out=changes)
+    return np.where(changes < p, changes.astype(np.int64), FAR)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
@@ -18,8 +18,8 @@ from smd.recognition.tokens import Token
 class Front(NamedTuple):
     """How far a string has come in every automaton of a bank.
 
-    ``cost (a, p)`` is the least cost of standing at each state; ``start (a, p)`` the token at
-    which the part that does so begins, the last one where several cost the same.
+    ``cost (s,)`` is the least cost of standing at each state; ``start (s,)`` the token at which
+    the part that does so begins, the last one where several cost the same.
     """
 
     cost: FloatArray
@@ -28,19 +28,19 @@ class Front(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bank:
-    """The automata of a library side by side, each padded to p states.
+    """The automata of a library side by side: s states in all, action after action.
 
     Attributes
     ----------
     names : of the a actions.
     token_costs : what it costs to take one token for another.
     tokens : (k,) int64, the codes of what the states read, state after state.
-    first : (s,) int64, where each of the s states begins in ``tokens``.
-    slot : (s,) int64, its place among the ``a * p`` padded ones.
-    enter, leave : (a, p), tokens missing before a state that begins, and after one that ends;
-        infinite for states that are padding.
-    step : (p, a, p), ``step[b, i, c]`` tokens missing between states b and c of automaton i;
-        infinite where no way leads.
+    first : (s,) int64, where each state begins in ``tokens``.
+    state : (a,) int64, where each action begins among the states.
+    enter, leave : (s,), tokens missing before a state that begins, and after one that ends.
+    source, missing : (w,), of each way from state to state where it comes from (int64), and the
+        tokens missing on it; ordered by where they lead.
+    way : (s,) int64, where the ways to each state begin; each has one from itself.
     shortest : (a,), tokens of the shortest string.
     """
 
@@ -48,28 +48,31 @@ class Bank:
     token_costs: TokenCosts
     tokens: IntArray
     first: IntArray
-    slot: IntArray
+    state: IntArray
     enter: FloatArray
     leave: FloatArray
-    step: FloatArray
+    source: IntArray
+    missing: FloatArray
+    way: IntArray
     shortest: FloatArray
 
     def __post_init__(self) -> None:
-        for name in ("tokens", "first", "slot", "enter", "leave", "step", "shortest"):
-            getattr(self, name).flags.writeable = False
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
 
     def __len__(self) -> int:
         return len(self.names)
 
     def reading(self, tokens: Iterable[Token]) -> FloatArray:
-        """Return ``(n, a, p)``, the cost of taking each of n tokens for one that a state reads."""
+        """Return ``(n, s)``, the cost of taking each of n tokens for one that a state reads."""
         codes = codes_of(tokens)
         kinds, kind = np.unique(codes, return_inverse=True)
-        read = np.zeros((len(kinds), self.enter.size))
-        if len(self.first):
-            each = self.token_costs.matrix[np.ix_(kinds, self.tokens)]
-            read[:, self.slot] = np.minimum.reduceat(each, self.first, axis=1)
-        return read[kind].reshape(len(codes), *self.enter.shape)
+        if not len(self.first):
+            return np.zeros((len(codes), 0))
+        each = self.token_costs.matrix[np.ix_(kinds, self.tokens)]
+        return np.asarray(np.minimum.reduceat(each, self.first, axis=1)[kind])
 
     def nowhere(self) -> Front:
         """Return the front before any token."""
@@ -86,7 +89,7 @@ class Bank:
         part begins::
 
             cost'(c) = min( cost(c) + skip,
-                            min over b of cost(b) + step(b, c) + read(c),
+                            min over b of cost(b) + missing(b, c) + read(c),
                             entering + enter(c) + read(c) )
 
         Parameters
@@ -96,13 +99,15 @@ class Bank:
         at
             The token's number.
         read
-            ``(a, p)``, what it costs to take the token for one that a state reads.
+            ``(s,)``, what it costs to take the token for one that a state reads.
         skip
             What it costs to leave the token out.
         """
-        ways = front.cost.T[:, :, None] + self.step
-        going_on = ways.min(axis=0)
-        since = np.where(ways == going_on, front.start.T[:, :, None], -1).max(axis=0)
+        ways = front.cost[self.source] + self.missing
+        going_on = np.minimum.reduceat(ways, self.way)
+        count = np.diff(self.way, append=len(ways))
+        best = ways == np.repeat(going_on, count)
+        since = np.maximum.reduceat(np.where(best, front.start[self.source], -1), self.way)
         beginning = entering + self.enter
         since[beginning <= going_on] = at
         arriving = np.minimum(beginning, going_on) + read
@@ -115,9 +120,9 @@ class Bank:
     def leaving(self, front: Front) -> Front:
         """Return ``(a,)`` the least cost of ending here, and where the part that does so began."""
         ways = front.cost + self.leave
-        least = ways.min(axis=1)
-        start = np.where(ways == least[:, None], front.start, -1).max(axis=1)
-        return Front(least, start)
+        least = np.minimum.reduceat(ways, self.state)
+        best = ways == np.repeat(least, np.diff(self.state, append=len(ways)))
+        return Front(least, np.maximum.reduceat(np.where(best, front.start, -1), self.state))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,32 +143,30 @@ class Occurrences:
 def compile_library(patterns: Mapping[str, Pattern], token_costs: TokenCosts | None = None) -> Bank:
     """Compile patterns by action; unit costs if none are given.
 
-    See `compile_automaton` for what a state is. A step of the bank takes O(a p^2) operations for
-    a patterns of at most p states each, all in a dozen array operations.
+    See `compile_automaton` for what a state is. A step of the bank takes O(w) operations for w
+    ways from state to state, all in a dozen array operations.
     """
     automata = [compile_automaton(pattern) for pattern in patterns.values()]
-    a, p = len(automata), max(map(len, automata), default=0)
-    enter, leave = np.full((2, a, p), np.inf)
-    step = np.full((p, a, p), np.inf)
-    reads: list[IntArray] = []
-    slot: list[int] = []
-    for i, automaton in enumerate(automata):
-        own = slice(len(automaton))
-        enter[i, own] = _reachable(automaton.enter)
-        leave[i, own] = _reachable(automaton.leave)
-        step[own, i, own] = _reachable(automaton.step)
-        reads += [codes_of(sorted(tokens)) for tokens in automaton.tokens]
-        slot += range(i * p, i * p + len(automaton))
+    reads = [codes_of(sorted(tokens)) for each in automata for tokens in each.tokens]
+    begins = _begins([len(each) for each in automata])
+    # By where they lead, then by where they come from: the transposed tables' order.
+    ways = [np.argwhere(each.step.T < FAR) for each in automata]
+    leads = [int(begin) + way[:, 0] for begin, way in zip(begins, ways, strict=True)]
+    comes = [int(begin) + way[:, 1] for begin, way in zip(begins, ways, strict=True)]
+    missing = [each.step[way[:, 1], way[:, 0]] for each, way in zip(automata, ways, strict=True)]
+    states = sum(map(len, automata))
     return Bank(
         names=tuple(patterns),
         token_costs=token_costs or unit_costs(),
-        tokens=np.concatenate([np.zeros(0, np.int64), *reads]),
-        first=np.cumsum([0, *map(len, reads)][:-1] if reads else [], dtype=np.int64),
-        slot=np.array(slot, dtype=np.int64),
-        enter=enter,
-        leave=leave,
-        step=step,
-        shortest=np.array([automaton.shortest for automaton in automata], dtype=np.float64),
+        tokens=_joined(reads),
+        first=_begins([len(codes) for codes in reads]),
+        state=begins,
+        enter=_reachable([each.enter for each in automata]),
+        leave=_reachable([each.leave for each in automata]),
+        source=_joined(comes),
+        missing=_joined(missing).astype(np.float64),
+        way=np.searchsorted(_joined(leads), np.arange(states)),
+        shortest=np.array([each.shortest for each in automata], dtype=np.float64),
     )
 
 
@@ -204,28 +207,69 @@ def least_costs(bank: Bank, *, read: FloatArray, skip: FloatArray) -> FloatArray
     Parameters
     ----------
     read
-        ``(n, a, p)``, what it costs to take token i for one that a state reads.
+        ``(n, s)``, what it costs to take token i for one that a state reads.
     skip
         ``(n,)``, what it costs to leave token i out. A missing token costs 1.
     """
-    return least_costs_by_end(bank, read=read, skip=skip)[-1]
+    return least_costs_of_parts(bank, [(0, len(read))], read=read, skip=skip)[0]
 
 
-def least_costs_by_end(bank: Bank, *, read: FloatArray, skip: FloatArray) -> FloatArray:
-    """Return ``(n + 1, a)``, the `least_costs` of the first 0 to n tokens of a string."""
-    costs = np.empty((len(read) + 1, len(bank)))
-    costs[0] = bank.shortest
-    if not len(bank):
+def least_costs_of_parts(
+    bank: Bank, parts: Sequence[tuple[int, int]], *, read: FloatArray, skip: FloatArray
+) -> FloatArray:
+    """Return ``(k, a)``, the `least_costs` of k parts of a string, all at once.
+
+    Parameters
+    ----------
+    parts
+        Each the number of its first token and of the one after its last. Those that begin
+        together are measured together.
+    read, skip
+        Of the whole string, as in `least_costs`.
+    """
+    costs = np.tile(bank.shortest, (len(parts), 1))  # of a part without a token
+    wanted: dict[int, dict[int, list[int]]] = {}
+    for number, (first, last) in enumerate(parts):
+        if last > first:
+            wanted.setdefault(first, {}).setdefault(last - first, []).append(number)
+    if not len(bank) or not wanted:
         return costs
-    unread = 0.0
-    front = bank.nowhere()
-    for j, (reading, skipping) in enumerate(zip(read, skip.tolist(), strict=True)):
-        front = bank.after(front, entering=unread, at=j, read=reading, skip=skipping)
-        unread += skipping
-        costs[j + 1] = np.minimum(unread + bank.shortest, bank.leaving(front).cost)
+    longest = {first: max(lengths) for first, lengths in wanted.items()}
+    firsts = np.array(sorted(longest, key=longest.__getitem__, reverse=True))
+    lengths = np.array([longest[first] for first in firsts.tolist()])
+    ends: dict[int, list[tuple[int, int]]] = {}  # by length: whose it is, and which part
+    for lane, first in enumerate(firsts.tolist()):
+        for length, numbers in wanted[first].items():
+            ends.setdefault(length, []).extend((lane, number) for number in numbers)
+    enter, leave, missing = (a[:, None] for a in (bank.enter, bank.leave, bank.missing))
+    cost = np.full((len(bank.enter), len(firsts)), np.inf)
+    unread = np.zeros(len(firsts))
+    for j in range(int(lengths[0])):
+        still = int(np.searchsorted(-lengths, -j))  # lanes that have a token j
+        at = firsts[:still] + j
+        cost, unread = cost[:, :still], unread[:still]
+        going_on = np.minimum.reduceat(cost[bank.source] + missing, bank.way, axis=0)
+        arriving = np.minimum(unread + enter, going_on) + read[at].T
+        cost = np.minimum(cost + skip[at], arriving)
+        unread = unread + skip[at]
+        if j + 1 in ends:
+            lanes, numbers = np.array(ends[j + 1]).T
+            ending = np.minimum.reduceat(cost[:, lanes] + leave, bank.state, axis=0)
+            costs[numbers] = np.minimum(unread[lanes] + bank.shortest[:, None], ending).T
     return costs
 
 
-def _reachable(missing: IntArray) -> FloatArray:
+def _begins(lengths: Sequence[int]) -> IntArray:
+    """Return where each of several parts begins, one after the other."""
+    return np.cumsum([0, *lengths], dtype=np.int64)[:-1]
+
+
+def _joined(parts: Sequence[IntArray]) -> IntArray:
+    """Return parts one after the other."""
+    return np.concatenate([np.zeros(0, np.int64), *parts])
+
+
+def _reachable(missing: Sequence[IntArray]) -> FloatArray:
     """Return numbers of missing tokens, infinite where no way leads."""
-    return np.where(missing >= FAR, np.inf, missing)
+    joined = _joined(missing)
+    return np.where(joined >= FAR, np.inf, joined)

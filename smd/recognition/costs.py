@@ -69,13 +69,13 @@ class RunCosts:
     is_still: BoolArray
 
     def of_reading(self, bank: Bank, runs: Sequence[TokenRun]) -> FloatArray:
-        """Return ``(n, a, p)``, the cost of taking each run for a token that a state reads."""
+        """Return ``(n, s)``, the cost of taking each run for a token that a state reads."""
         mistaken = bank.reading(run.token for run in runs)
         # Stillness taken for a movement costs more than that movement missing, or it would be a
         # way to stretch an action over the rest beside it.
         still = np.flatnonzero(self.is_still)
-        mistaken[still] = np.sign(mistaken[still]) * (1.0 + self.skip[still, None, None])
-        return np.maximum(mistaken, self.faintness[:, None, None])
+        mistaken[still] = np.sign(mistaken[still]) * (1.0 + self.skip[still, None])
+        return np.maximum(mistaken, self.faintness[:, None])
 
 
 def run_costs(runs: Sequence[TokenRun], costs: Costs) -> RunCosts:

@@ -138,22 +138,12 @@ def faced(shapes: FloatArray, central: FloatArray) -> FloatArray:
     return fitted(shapes, central, facing_rad=FACING_RAD, askew_rad=ASKEW_RAD)
 
 
-def nearest_distances(
-    gestures: FloatArray, examples: FloatArray, *, most: float = np.inf, every: int = 1
-) -> FloatArray:
+def nearest_distances(gestures: FloatArray, examples: FloatArray) -> FloatArray:
     """Return ``(p,)``: how far each of p gestures is from the nearest of m examples, warped.
 
-    Parameters
-    ----------
-    gestures, examples
-        ``(p, SAMPLES, d)`` and ``(m, SAMPLES, d)``, one course of each.
-    most
-        A distance above it is of no interest: it may come out as infinity, and sooner.
-    every
-        Only every so many-th sample is warped, in the square of that less time.
+    Both are one course of each, ``(p, SAMPLES, d)`` and ``(m, SAMPLES, d)``.
     """
-    ours, theirs = gestures[:, ::every], examples[:, ::every]
-    return np.asarray(distance_table(ours, theirs, band=BAND, most=most).min(axis=1))
+    return np.asarray(distance_table(gestures, examples, band=BAND).min(axis=1))
 
 
 def _central(shapes: FloatArray) -> FloatArray:

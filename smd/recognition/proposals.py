@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.geometry.arrays import FloatArray
-from smd.recognition.bank import Bank, least_costs_by_end
+from smd.recognition.bank import Bank, least_costs_of_parts
 from smd.recognition.costs import RunCosts
 from smd.recognition.tokens import TokenRun
 
@@ -67,14 +67,15 @@ def between_rests(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> lis
     moving = ~np.asarray(prices.is_still)
     steps = np.diff(moving.astype(np.int8), prepend=0, append=0)
     firsts, lasts = np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()
-    found: list[Proposal] = []
-    for i, first in enumerate(firsts):
-        part = slice(first, lasts[i : i + MOST_STROKES][-1])
-        by_end = least_costs_by_end(bank, read=read[part], skip=prices.skip[part])
-        for last in lasts[i : i + MOST_STROKES]:
-            distance = by_end[last - first].tolist()
-            found += [Proposal(a, first, last, d) for a, d in enumerate(distance)]
-    return found
+    parts = [
+        (first, last) for i, first in enumerate(firsts) for last in lasts[i : i + MOST_STROKES]
+    ]
+    costs = least_costs_of_parts(bank, parts, read=read, skip=prices.skip).tolist()
+    return [
+        Proposal(action, first, last, distance)
+        for (first, last), distances in zip(parts, costs, strict=True)
+        for action, distance in enumerate(distances)
+    ]
 
 
 def without_stir(found: Sequence[Proposal], runs: Sequence[TokenRun]) -> list[Proposal]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from laban import RigidMotion
 from smd.geometry.arrays import FloatArray
-from smd.recognition.bank import Bank, compile_library, least_costs
+from smd.recognition.bank import Bank, compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, Costs, run_costs
 from smd.recognition.pattern import Pattern
 from smd.recognition.segmentation import Segment, Segmenter, least_cost_segments
@@ -120,11 +120,11 @@ def spans_of(
     """Return the spans of segments that have their loose ends, weighed by tokens alone."""
     prices = run_costs(runs, costs)
     read = prices.of_reading(bank, runs)
+    parts = [(one.first, one.last) for one in segments]
+    distances = least_costs_of_parts(bank, parts, read=read, skip=prices.skip)
     spans = []
-    for one in segments:
-        part = slice(one.first, one.last)
-        distance = least_costs(bank, read=read[part], skip=prices.skip[part])
-        nothing = float(prices.unexplained[part].sum()) - costs.action
+    for one, distance in zip(segments, distances, strict=True):
+        nothing = float(prices.unexplained[one.first : one.last].sum()) - costs.action
         nearest = np.argsort(distance, kind="stable").tolist()
         spans.append(
             Span(

@@ -59,7 +59,7 @@ def cheapest_cut(
     Parameters
     ----------
     read
-        ``(n, a, p)``: what it costs to take token i for one that a state reads.
+        ``(n, s)``: what it costs to take token i for one that a state of the bank reads.
     skip
         ``(n,)``, what it costs to leave token i out of a segment around it.
     unexplained

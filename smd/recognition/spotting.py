@@ -12,7 +12,7 @@ from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.geometry.arrays import FloatArray
 from smd.recognition.action import Action
-from smd.recognition.bank import compile_library, least_costs
+from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, Costs, RunCosts, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import exemplar_of
@@ -25,7 +25,7 @@ from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of, traits_of_parts
-from smd.recognition.verification import TERMS, WRONG, verification_of
+from smd.recognition.verification import GLANCE, TERMS, WRONG, verification_of
 from smd.smoothing import smooth
 
 UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
@@ -39,10 +39,6 @@ what does not is rejected by the limit."""
 
 WORTH_NAMING = 2.0
 """An action that costs more than so many times its limit is no alternative to another one."""
-
-GLANCE = 2
-"""Courses of proposals are warped by every second sample, in a quarter of the time. That is good
-enough to choose stretches; what they are called is decided by all samples."""
 
 Fits: TypeAlias = dict[tuple[int, float, float], float]
 """How well stretches fit an action's examples, by action, start and end in seconds."""
@@ -339,18 +335,14 @@ class Recognizer:
         """
         prices = run_costs(runs, self._costs)
         read = prices.of_reading(self._bank, runs)
-        parts = [slice(*stretch) for stretch in stretches]
-        wrong = np.array(
-            [
-                least_costs(self._bank, read=read[part], skip=prices.skip[part])
-                / _strokes(runs[part])
-                for part in parts
-            ]
-        ).reshape(len(parts), len(self.names))
-        terms = np.zeros((len(parts), len(self.names), len(TERMS)))
+        distance = least_costs_of_parts(self._bank, stretches, read=read, skip=prices.skip)
+        strokes = np.concatenate([[0], np.cumsum(~prices.is_still)])
+        first, last = np.array(stretches, np.int64).reshape(-1, 2).T
+        wrong = distance / np.maximum(strokes[last] - strokes[first], 1)[:, None]
+        terms = np.zeros((len(stretches), len(self.names), len(TERMS)))
         terms[..., 0] = UNVERIFIED + UNVERIFIED_WRONG * wrong
         limit = np.where(self._verified, self._verification.limit, UNVERIFIED + UNVERIFIED_WRONG)
-        if len(parts) and self._verified.any():
+        if len(stretches) and self._verified.any():
             known = {} if known is None else known
             spans_s = [(runs[first].start_s, runs[last - 1].end_s) for first, last in stretches]
             new = [span_s for span_s in dict.fromkeys(spans_s) if span_s not in known]
@@ -436,8 +428,3 @@ def _span(name: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[
             if match.action not in (None, name) and np.isfinite(match.distance)
         ),
     )
-
-
-def _strokes(runs: Sequence[TokenRun]) -> int:
-    """Return how many of some runs move."""
-    return max(sum(run.token != STILL for run in runs), 1)

@@ -15,6 +15,7 @@ from smd.geometry.rotations import (
     inverse,
     matrix_from_quaternion,
     multiply,
+    quaternion_about,
     quaternion_from_rotvec,
     rotate,
     rotvec_from_quaternion,
@@ -173,20 +174,16 @@ def fitted(
         ``(m, n, 12)``.
     """
     m, n, _ = shapes.shape
-    vectors, wanted = shapes.reshape(m, 4 * n, 3), target.reshape(-1, 4 * n, 3)
-    x, z = vectors[..., 0], vectors[..., 2]
-    along = np.sum(x * wanted[..., 0] + z * wanted[..., 2], axis=1)
-    across = np.sum(z * wanted[..., 0] - x * wanted[..., 2], axis=1)
-    angle = np.clip(np.arctan2(across, along), -facing_rad, facing_rad)[:, None]
-    cosine, sine = np.cos(angle), np.sin(angle)
-    turned = np.stack([cosine * x + sine * z, vectors[..., 1], cosine * z - sine * x], axis=-1)
-    turned = turned.reshape(m, n, 4, 3)
+    # Sums over the samples of products of our numbers with theirs: (m, vector, its axis, …)
+    products = np.matmul(np.swapaxes(shapes, -1, -2), target).reshape(m, 4, 3, 4, 3)
+    same = np.einsum("mrkrl->mkl", products)
+    along, across = same[:, 0, 0] + same[:, 2, 2], same[:, 2, 0] - same[:, 0, 2]
+    angle = np.clip(np.arctan2(across, along), -facing_rad, facing_rad)
+    facing = matrix_from_quaternion(quaternion_about([0.0, 1.0, 0.0], angle))
 
-    axes, goal = turned[:, :, 1:], target.reshape(-1, n, 4, 3)[:, :, 1:]
-    # (m, 3, 3), the mean of (our frame)^T (their frame), each of unit axes
-    ours = axes.transpose(0, 2, 1, 3).reshape(m, 3, 3 * n)
-    theirs = goal.transpose(0, 1, 3, 2).reshape(-1, 3 * n, 3)
-    between = np.matmul(ours, theirs) / (n * 0.5 * _RADIAN_IN_SHAPE**2)
+    # (m, 3, 3), the mean of (our frame)^T (their frame), each of unit axes, ours turned
+    between = np.einsum("mkl,mrlck->mrc", facing, products[:, 1:, :, 1:])
+    between /= n * 0.5 * _RADIAN_IN_SHAPE**2
     sine_axis = 0.5 * np.stack(
         [
             between[:, 2, 1] - between[:, 1, 2],
@@ -200,8 +197,11 @@ def fitted(
     held = matrix_from_quaternion(
         quaternion_from_rotvec(sine_axis / np.maximum(size, 1e-12) * -most)
     )
-    turned[:, :, 1:] = np.matmul(held[:, None], axes)
-    return turned.reshape(shapes.shape)
+    # All vectors are turned by facing, and the axes mixed by held: one matrix for each shape.
+    turn = np.zeros((m, 4, 3, 4, 3))
+    turn[:, 0, :, 0] = np.swapaxes(facing, 1, 2)
+    turn[:, 1:, :, 1:] = np.einsum("mrc,mlk->mckrl", held, facing)
+    return np.asarray(np.matmul(shapes, turn.reshape(m, 12, 12)))
 
 
 def _shape(poses: Poses, frame_xyzw: FloatArray) -> FloatArray:

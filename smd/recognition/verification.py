@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import numpy as np
 
 from smd.geometry.arrays import FloatArray, IntArray
-from smd.recognition.exemplar import Exemplar, faced, nearest_distances
-from smd.recognition.traits import COURSES, MEASURES, Traits
+from smd.recognition.exemplar import BAND, Exemplar, faced
+from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
+from smd.recognition.warping import Examples
 
 TERMS = ("tokens", *COURSES, *MEASURES)
 """What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
@@ -33,10 +35,21 @@ SLACK, SLACK_SHARE = 4.5, 1.6
 slack is for three examples or fewer; it shrinks with the root of their number, as what they leave
 open does."""
 
+GLANCE = 2
+"""Courses of proposals are warped by every second sample, in a quarter of the time. That is good
+enough to choose stretches; what they are called is decided by all samples."""
+
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
-_TELLING_FIRST = tuple(
-    COURSES.index(name) for name in ("flow_heading", "shape_heading", "flow_prop", "shape_prop")
+_SHAPE = COURSES.index("shape_heading")
+_CHEAP_FIRST = (
+    *(COURSES.index(name) for name in ("flow_heading", "flow_prop", "shape_prop")),
+    _SHAPE,  # is turned to fit first
 )
+_TELLING_FIRST = (_SHAPE, *_CHEAP_FIRST[:-1])
+
+PAIRS = 4096
+"""Of an action and a gesture, that are weighed together: what lies in between for them takes
+64 MiB, however long the recording."""
 
 _FREEDOM = 4.0
 """Of Student's distribution, which measures are taken to follow: what is far out is hardly more
@@ -59,6 +72,7 @@ class Verification:
     spread: FloatArray = field(init=False)
     unit: FloatArray = field(init=False)
     central: FloatArray = field(init=False)
+    examples: Mapping[int, tuple[Examples, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
         some = next((one for one in self.exemplars if one), None)
@@ -75,6 +89,14 @@ class Verification:
             array = np.array(value, dtype=np.float64)
             array.flags.writeable = False
             object.__setattr__(self, name, array)
+        courses = [[one.courses[name] for one in each if one] for name in COURSES]
+        examples = {
+            every: tuple(
+                Examples(tuple(c[:, ::every] for c in each), BAND) for each in courses if each
+            )
+            for every in (1, GLANCE)
+        }
+        object.__setattr__(self, "examples", MappingProxyType(examples))
 
     def terms(
         self,
@@ -91,8 +113,9 @@ class Verification:
         A course's term is its distance to the nearest example, as a multiple of what is usual; a
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
         its peak; the tokens' is the share that is wrong. Each is multiplied by its weight, and
-        none is negative. So the measures and the most telling courses come first, and the rest
-        are not looked for (`inf`) once the sum is above ``most``.
+        none is negative. So a pair is left as soon as what is known, and what the rest costs at
+        least (`warping.Examples.at_least`), are more than ``most`` together; what was not
+        looked for is `inf`.
 
         Parameters
         ----------
@@ -105,7 +128,7 @@ class Verification:
         most
             ``(p,)``, a sum above it is of no interest.
         every
-            Courses are warped by every so many-th sample.
+            Courses are warped by every so many-th sample: 1 or `GLANCE`.
 
         Returns
         -------
@@ -113,30 +136,51 @@ class Verification:
             ``(p, 9)``, in the order of `TERMS`.
         """
         terms = np.full((len(action), len(TERMS)), np.inf)
-        if not len(action):
-            return terms
+        by_action = np.argsort(action, kind="stable")
+        for begin in range(0, len(action), PAIRS):
+            some = by_action[begin : begin + PAIRS]
+            terms[some] = self._some_terms(
+                gestures, action[some], gesture[some], wrong[some], most[some], every
+            )
+        return terms
+
+    def _some_terms(
+        self,
+        gestures: Traits,
+        action: IntArray,
+        gesture: IntArray,
+        wrong: FloatArray,
+        most: FloatArray,
+        every: int,
+    ) -> FloatArray:
+        """Return `terms` of pairs that are ordered by action."""
+        terms = np.full((len(action), len(TERMS)), np.inf)
         terms[:, 0] = WEIGHTS[0] * wrong
         deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
         terms[:, _MEASURES] = WEIGHTS[_MEASURES] * _oddness(deviation)
-        total = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
+        known = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
+        floor = np.zeros((len(action), len(COURSES)))  # what courses cost that are not warped yet
+        left = np.flatnonzero(known <= most)
+        shapes = np.zeros((0, SAMPLES // every, 12))
+        for i in _CHEAP_FIRST:
+            courses = gestures.courses[i][gesture[left], ::every]
+            if i == _SHAPE:
+                whole = gestures.courses[i][gesture[left]]
+                courses = shapes = faced(whole, self.central[action[left]])[:, ::every]
+            least = self.examples[every][i].at_least(courses, action[left])
+            floor[left, i] = self.unit[action[left], i] * least
+            within = known[left] + floor[left].sum(axis=1) <= most[left]
+            left = left[within]
+        shapes = shapes[within]
         for i in _TELLING_FIRST:
-            left = np.flatnonzero(total <= most)
+            courses = shapes if i == _SHAPE else gestures.courses[i][gesture[left], ::every]
             unit = self.unit[action[left], i]
-            courses = gestures.courses[i][gesture[left]]
-            if COURSES[i] == "shape_heading":
-                courses = faced(courses, self.central[action[left]])
-            room = (most[left] - total[left]) / unit
-            far = np.empty(len(left))
-            for index in np.unique(action[left]).tolist():
-                own = np.flatnonzero(action[left] == index)
-                exemplar = self.exemplars[index]
-                assert exemplar is not None
-                examples = exemplar.courses[COURSES[i]]
-                far[own] = nearest_distances(
-                    courses[own], examples, most=float(room[own].max()), every=every
-                )
+            floor[left, i] = 0.0
+            room = (most[left] - known[left] - floor[left].sum(axis=1)) / unit
+            far = self.examples[every][i].nearest(courses, action[left], room)
             terms[left, 1 + i] = unit * far
-            total[left] += terms[left, 1 + i]
+            known[left] += terms[left, 1 + i]
+            left = left[known[left] + floor[left].sum(axis=1) <= most[left]]
         return terms
 
     def least_terms(

@@ -1,4 +1,7 @@
-"""Demands: where a doodle asks more of a character than a body can do."""
+"""Demands: where a doodle asks more of a character than a body can do, or a clip was made for.
+
+It is played all the same: what the Score says is done, in its time.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,9 @@ import numpy as np
 from smd.transfer.gait import LONGEST_STRIDE
 from smd.transfer.move import Move
 from smd.transfer.travelling import NOWHERE_M
+
+FASTEST_PLAYED = 3.0
+"""How many times as fast as it was made a clip may be played before it is worth a line."""
 
 SEEN = 0.5
 """Presence from which a gait's steps count: what is stood through has none."""
@@ -22,7 +28,10 @@ def demands(device: str, moves: Sequence[Move]) -> Iterator[str]:
     hurried: dict[str, list[tuple[float, float]]] = {}
     stretched: dict[str, list[tuple[float, float]]] = {}
     still: dict[str, list[tuple[float, float]]] = {}
+    pressed: dict[str, list[tuple[float, float]]] = {}
     for move in moves:
+        if not move.idles and (pace := fastest_pace(move)) > FASTEST_PLAYED:
+            pressed.setdefault(move.piece.clip.name, []).append((move.start_s, pace))
         if not move.piece.travels or move.idles:
             continue
         name, gait = move.piece.clip.name, move.piece.gait
@@ -35,6 +44,12 @@ def demands(device: str, moves: Sequence[Move]) -> Iterator[str]:
             # + 1e-6: a stride of exactly that is allowed.
             if (stretch := stride_ratio(move)) > LONGEST_STRIDE + 1e-6:
                 stretched.setdefault(name, []).append((move.start_s, stretch))
+    for name, found in pressed.items():
+        yield (
+            f"device {device!r}: {name} at {found[0][0]:.2f} s: expected up to "
+            f"{FASTEST_PLAYED:.0f} times its clip's pace, the phrase asks for "
+            f"{max(pace for _, pace in found):.1f}{_more(found)}"
+        )
     limits = {move.piece.clip.name: move.piece.gait for move in moves}
     for name, found in hurried.items():
         gait = limits[name]
@@ -56,6 +71,14 @@ def demands(device: str, moves: Sequence[Move]) -> Iterator[str]:
             f"{NOWHERE_M:.2f} m on the stage, found {max(way_m for _, way_m in found):.2f} m; "
             f"it is done on the spot{_more(found)}"
         )
+
+
+def fastest_pace(move: Move) -> float:
+    """Return how many times as fast as it was made a clip is played at the most; 0 of a cycle."""
+    if move.piece.clip.cyclic:
+        return 0.0
+    pace_hz = np.diff(move.frame) / np.diff(move.time_s)
+    return float(pace_hz.max(initial=0.0) / move.piece.clip.rate_hz)
 
 
 def way_of(move: Move) -> float:

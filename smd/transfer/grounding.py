@@ -164,7 +164,7 @@ def _put(
 
 
 def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:
-    """Return how far a foot is led from where its leg has it, less where it is free.
+    """Return how far a foot is led from where its leg has it, less aside where it is free.
 
     Between two stands a foot is led from one place to the other; in a roll or a leap the body
     goes elsewhere, and the leg would be torn straight, or drawn through the hip, on the way.
@@ -177,9 +177,9 @@ def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatA
         When it should stand, on the ground or just above it.
     """
     free = smootherstep(_frames_to(stands) / (FREED_S * rate_hz))
-    far = np.linalg.norm(offset_m, axis=-1)
-    share = far * free / LOOSE_M
-    return offset_m / ((1.0 + share**4) ** 0.25)[:, None]
+    share = np.hypot(offset_m[:, 0], offset_m[:, 2]) * free / LOOSE_M
+    less = 1.0 / (1.0 + share**4) ** 0.25
+    return offset_m * np.stack([less, np.ones_like(less), less], axis=-1)
 
 
 def _frames_to(true: BoolArray) -> FloatArray:

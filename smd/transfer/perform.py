@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,7 +18,6 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Phrase, Score
 from smd.transfer.acting import acted_contacts, acted_poses
-from smd.transfer.cautions import hurried
 from smd.transfer.company import apart, encounters
 from smd.transfer.course import course
 from smd.transfer.demands import demands
@@ -109,23 +108,17 @@ def perform(
     # + 1e-6: a duration of whole frames may come out a hair short.
     frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
     time_s = start_s + np.arange(frames) / rate_hz
-    stage = stage_for(recording, cast.shared.character.height_m, score.figure_height_m)
-    pieces = repertoires(score, cast, expressiveness)
-    staged = [
-        enter(part, recording, stage, pieces[cast.of(part.device)], time_s, ahead, heading)
-        for part, ahead in zip(score.performers, idling_aheads(), strict=False)
-    ]
-    devices = [one.part.device for one in staged]
-    heights_m = [cast.of(device).character.height_m for device in devices]
-    alone = [one.moves for one in staged]
-    together = apart(alone, heights_m)
-    staged = [replace(one, moves=moves) for one, moves in zip(staged, together, strict=True)]
+    alone = entrances(
+        score, recording, cast, time_s, expressiveness=expressiveness, heading=heading
+    )
+    staged = kept_apart(alone, cast)
     actors = tuple(
         act(one, cast.of(one.part.device).character, time_s, rate_hz, terrain) for one in staged
     )
-    asked = [line for one in staged for line in hurried(one.part, one.pieces)]
-    asked += [line for one in staged for line in demands(one.part.device, one.moves)]
-    asked += encounters(devices, alone, together, heights_m)
+    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    devices = [part.device for part in score.performers]
+    before, after = ([one.moves for one in performers] for performers in (alone, staged))
+    asked += encounters(devices, before, after, _heights_m(devices, cast))
     # A Score may come from an earlier performance, and have its warnings already.
     warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
     return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings), terrain)
@@ -187,6 +180,38 @@ class Staged:
     clock_s: float
 
 
+def entrances(
+    score: Score,
+    recording: Recording,
+    cast: Cast,
+    time_s: FloatArray,
+    *,
+    expressiveness: float,
+    heading: str,
+) -> list[Staged]:
+    """Lay out what each performer does, as if alone, from the first of some times to the last.
+
+    Parameters are those of `perform`.
+    """
+    stage = stage_for(recording, cast.shared.character.height_m, score.figure_height_m)
+    pieces = repertoires(score, cast, expressiveness)
+    return [
+        enter(part, recording, stage, pieces[cast.of(part.device)], time_s, ahead, heading)
+        for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
+    ]
+
+
+def kept_apart(alone: Sequence[Staged], cast: Cast) -> list[Staged]:
+    """Return performers that do not walk through each other."""
+    heights_m = _heights_m([one.part.device for one in alone], cast)
+    together = apart([one.moves for one in alone], heights_m)
+    return [replace(one, moves=moves) for one, moves in zip(alone, together, strict=True)]
+
+
+def _heights_m(devices: Sequence[str], cast: Cast) -> list[float]:
+    return [cast.of(device).character.height_m for device in devices]
+
+
 def enter(
     part: Part,
     recording: Recording,
@@ -198,7 +223,9 @@ def enter(
 ) -> Staged:
     """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
-    moves = moves_of(part, recording, stage, pieces, time_s, clock_s=clock_s, heading=heading)
+    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
+    path = HEADINGS[heading](ground_path(recording.of(part.device), stage), spans, pieces)
+    moves = course(spans, path, pieces, clock_s=clock_s)
     doodles = tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device))
     return Staged(part, doodles, pieces, moves, clock_s)
 
@@ -236,31 +263,7 @@ def act(
     )
 
 
-def moves_of(
-    part: Part,
-    recording: Recording,
-    stage: Stage,
-    pieces: Repertoire,
-    time_s: FloatArray,
-    *,
-    clock_s: float,
-    heading: str = "prop",
-) -> tuple[Move, ...]:
-    """Return the moves of one part, from the first of some times to the last.
-
-    Parameters
-    ----------
-    clock_s
-        Time at which its idling began.
-    heading
-        What it faces by, one of `HEADINGS`.
-    """
-    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    path = HEADINGS[heading](ground_path(recording.of(part.device), stage), spans, pieces)
-    return course(spans, path, pieces, clock_s=clock_s)
-
-
-def idling_aheads() -> Iterator[float]:
+def _idling_ahead() -> Iterator[float]:
     """Return how far ahead each performer is in its idling, so that no two breathe as one."""
     golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
     return (golden * i % 1.0 for i in itertools.count())

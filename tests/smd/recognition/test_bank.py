@@ -13,7 +13,7 @@ from smd.recognition.bank import (
     compile_library,
     distances,
     least_costs,
-    least_costs_by_end,
+    least_costs_of_parts,
     occurrences,
 )
 from smd.recognition.pattern import Pattern
@@ -100,20 +100,28 @@ def test_the_shipped_actions_are_measured_as_one_by_one(costs, seed):
     one_by_one = [edit_distance(automaton, word, costs) for automaton in automata]
     assert distances(bank, word).tolist() == one_by_one
     faint, skip = rng.uniform(0.0, 0.5, 200), rng.uniform(0.0, 1.0, 200)
-    priced = least_costs(bank, read=np.maximum(bank.reading(word), faint[:, None, None]), skip=skip)
+    priced = least_costs(bank, read=np.maximum(bank.reading(word), faint[:, None]), skip=skip)
     for automaton, cost in zip(automata, priced, strict=True):
         read = np.maximum(reading(automaton, word, costs), faint[:, None])
         assert cost == pytest.approx(least_cost(automaton, read=read, skip=skip), rel=1e-12)
 
 
 @pytest.mark.parametrize("costs", COSTS, ids=by_name)
-def test_the_costs_of_all_beginnings_are_those_of_each(costs):
+def test_the_costs_of_many_parts_are_those_of_each_alone(costs):
     rng = np.random.default_rng(3)
     bank = compile_library(PATTERNS, costs)
+    automata = [compile_automaton(pattern) for pattern in PATTERNS.values()]
     word = [ALPHABET[i] for i in rng.integers(len(ALPHABET), size=12)]
-    read, skip = bank.reading(word), rng.uniform(0.1, 1.0, len(word))
-    each = [least_costs(bank, read=read[:j], skip=skip[:j]) for j in range(len(word) + 1)]
-    assert np.array_equal(least_costs_by_end(bank, read=read, skip=skip), each)
+    skip = rng.uniform(0.1, 1.0, len(word))
+    parts = [(i, j) for i in range(len(word) + 1) for j in range(i, len(word) + 1)]
+    parts = [parts[i] for i in rng.permutation(len(parts))] + parts[:3]
+    found = least_costs_of_parts(bank, parts, read=bank.reading(word), skip=skip)
+    for (first, last), each in zip(parts, found, strict=True):
+        for automaton, cost in zip(automata, each, strict=True):
+            read = reading(automaton, word[first:last], costs)
+            expected = least_cost(automaton, read=read, skip=skip[first:last])
+            assert cost == pytest.approx(expected, rel=1e-12)
+    assert least_costs_of_parts(bank, [], read=bank.reading(word), skip=skip).shape == (0, 7)
 
 
 def test_graded_distances_are_never_larger():
@@ -143,8 +151,9 @@ def test_an_empty_library_or_string_is_measured():
 
 def test_a_bank_is_small_and_cannot_be_changed():
     bank = compile_library(SHIPPED)
-    arrays = (bank.tokens, bank.first, bank.slot, bank.enter, bank.leave, bank.step)
-    assert sum(array.nbytes for array in arrays) < 200_000
+    arrays = (bank.tokens, bank.first, bank.state, bank.enter, bank.leave)
+    arrays += (bank.source, bank.missing, bank.way, bank.shortest)
+    assert sum(array.nbytes for array in arrays) < 60_000
     for array in arrays:
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1

@@ -24,7 +24,7 @@ GRADED = replace(BANK, token_costs=graded_costs())
 
 def problem(rng, n, bank=BANK):
     word = tuple(ALPHABET[i] for i in rng.integers(len(ALPHABET), size=n))
-    read = np.maximum(bank.reading(word), rng.uniform(0.0, 0.3, n)[:, None, None])
+    read = np.maximum(bank.reading(word), rng.uniform(0.0, 0.3, n)[:, None])
     skip = rng.uniform(0.0, 1.0, n)
     return {
         "read": read,

@@ -50,3 +50,21 @@ def test_the_scores_own_warnings_come_first_and_none_comes_twice(library):
     once = taken(library, 4.0, warnings=("lost",))
     assert once[0] == "lost"
     assert taken(library, 4.0, warnings=once) == once
+
+
+def test_a_phrase_too_short_for_its_clip_is_warned_of(library):
+    time_s = np.arange(round(8.0 * RATE_HZ) + 1) / RATE_HZ
+    place = np.tile([0.0, 0.8, 0.0], (len(time_s), 1))
+    doodle = Doodle(time_s, place, np.tile([0.0, 0.0, 0.0, 1.0], (len(time_s), 1)), "fox")
+    length_s = library.clip("bow").duration_s
+
+    def said(pace: float) -> tuple[str, ...]:
+        score = Score((Part("fox", (Phrase("bow", 1.0, 1.0 + length_s / pace),)),))
+        return animate(score, Recording((doodle,)), library).score.warnings
+
+    assert said(2.8) == ()
+    (line,) = said(4.0)
+    assert line == (
+        "device 'fox': bow at 1.00 s: expected up to 3 times its clip's pace, the phrase asks "
+        "for 4.0"
+    )
