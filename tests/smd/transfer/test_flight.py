@@ -67,6 +67,7 @@ def test_a_body_that_rises_as_far_as_gravity_has_it_goes_as_high_as_thrown():
     assert apex_for(thrown_m, 0.5, thrown_m) == pytest.approx(thrown_m)
     assert apex_for(4.0 * thrown_m, 0.5, thrown_m) == pytest.approx(2.0 * thrown_m)
     assert apex_for(0.0, 0.5, 0.3) == pytest.approx(LOWEST * 0.3)
+    assert apex_for(0.0, 0.8, 0.3) == pytest.approx(GRAVITY_M_S2 * 0.8**2 / 8.0 / 3.0)
     assert apex_for(50.0, 0.5, 0.3) == pytest.approx(HIGHEST * 0.3)
 
 
