@@ -261,11 +261,11 @@ def act(
     poses = placed(poses, moves, time_s, rate_hz)
     body = pelvis_of(character.skeleton, pieces.legs) or 0
     flown = list(flights(moves, height_of(staged.doodles), body))
-    rise = Rise(*raised(flown, time_s))
+    rise = Rise(*raised(flown, time_s), in_air(flown, time_s))
     ground = None
     if terrain is not None:
         way = poses.translation_m[:, 0, [0, 2]]
-        ground = slope(terrain, way, in_air(flown, time_s), time_s, rate_hz, staged.part.device)
+        ground = slope(terrain, way, rise.flies, time_s, rate_hz, staged.part.device)
     feet = [leg.foot for leg in pieces.legs]
     stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
     poses = grounded(

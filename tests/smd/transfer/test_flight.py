@@ -109,17 +109,20 @@ def test_a_flight_is_a_parabola_and_joins_the_clip_without_a_jump(library, name,
         assert abs(after - before) < 0.04 * 8.0 * flight.apex_m / duration_s**2 + 1.0
 
 
-@pytest.mark.parametrize("lasting_s, rise_m", [(2.0, 0.01), (2.0, 0.03), (2.5, 0.02)])
+@pytest.mark.parametrize(
+    ("name", "lasting_s", "rise_m"),
+    [("jump", 2.0, 0.01), ("jump", 2.0, 0.03), ("jump", 2.5, 0.02), ("leap", 2.5, 0.02)],
+)
 def test_a_jump_is_as_high_as_drawn_and_its_feet_fly_as_long_as_its_body(
-    library, lasting_s, rise_m
+    library, name, lasting_s, rise_m
 ):
-    recording, score = hop("jump", lasting_s, rise_m)
+    recording, score = hop(name, lasting_s, rise_m)
     (actor,) = animate(score, recording, library, rate_hz=RATE_HZ).actors
-    skeleton, clip = library.character.skeleton, library.clip("jump")
+    skeleton, clip = library.character.skeleton, library.clip(name)
     legs, hips = legs_of(skeleton, feet_of(clip)), skeleton.index("hips")
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
     body_m = body_height(clip, hips)
-    first, last = flight_frames(piece(library, "jump"), body_m)
+    first, last = flight_frames(piece(library, name), body_m)
     flown_s = lasting_s * (last - first) / (len(clip) - 1)  # the clip lasts as long as the phrase
     own_m = (body_m - np.interp(np.arange(len(clip)), [first, last], body_m[[first, last]])).max()
     apex_m = apex_for(stage.scale * rise_m, flown_s, own_m)
