@@ -84,12 +84,16 @@ def without_stir(found: Sequence[Proposal], runs: Sequence[TokenRun]) -> list[Pr
     That is still or below `STIR`: a rest that is not quite one must not move where a gesture
     begins and ends. Of an action's proposals for one stretch the nearest stays.
     """
-    extent = np.array([run.travel_heights + run.turn_rad for run in runs])
+    extent = [run.travel_heights + run.turn_rad for run in runs]
     meant: dict[tuple[int, int], tuple[int, int]] = {}
-    for first, last in dict.fromkeys((one.first, one.last) for one in found):
-        inside = extent[first:last]
-        large = first + np.flatnonzero(inside >= STIR * inside.max())
-        meant[first, last] = int(large[0]), int(large[-1]) + 1
+    for whole in dict.fromkeys((one.first, one.last) for one in found):
+        first, last = whole
+        least = STIR * max(extent[first:last])
+        while extent[first] < least:
+            first += 1
+        while extent[last - 1] < least:
+            last -= 1
+        meant[whole] = first, last
     tight: dict[tuple[int, int, int], float] = {}
     for action, first, last, distance in found:
         stretch = (action, *meant[first, last])

@@ -46,6 +46,19 @@ def test_what_is_farther_than_wanted_is_infinite_and_the_rest_as_before():
         assert np.array_equal(bound, np.where(free <= most, free, np.inf))
 
 
+@pytest.mark.parametrize("band", [0.25, 0.6])
+def test_no_example_is_nearer_than_the_box_around_them_says(band):
+    rng = np.random.default_rng(4)
+    own = tuple(courses_at_random(rng, count, 9, 2) for count in (1, 3))
+    examples, action = Examples(own, band), np.repeat([0, 1], 20)
+    courses = 0.5 * courses_at_random(rng, 40, 9, 2)
+    least = examples.at_least(courses, action)
+    far = examples.nearest(courses, action, np.full(40, np.inf))
+    assert (least <= far).all()
+    assert (least > 0.3 * far).any()  # it says something
+    assert (examples.at_least(own[1], np.ones(3, int)) == 0.0).all()
+
+
 @pytest.mark.parametrize("offset", [0.0, 1.0, 100.0])
 def test_single_precision_decides_nothing(offset):
     # Far from the origin, the squares of single precision are off by more than the distances.
