@@ -116,7 +116,7 @@ def perform(
     actors = tuple(
         act(one, cast.of(one.part.device).character, time_s, rate_hz, terrain) for one in staged
     )
-    asked = [] if expressiveness == 0.0 else list(_not_played(score, cast))
+    asked = [_not_played(one.part) for one in staged if one.pieces.expressiveness < expressiveness]
     asked += [line for one in staged for line in demands(one.part.device, one.moves)]
     devices = [part.device for part in score.performers]
     before, after = ([one.moves for one in performers] for performers in (alone, staged))
@@ -148,14 +148,11 @@ def has_back(library: Library) -> bool:
     return bool(body.spine) or body.neck is not None
 
 
-def _not_played(score: Score, cast: Cast) -> Iterator[str]:
-    """Yield a line for each performer whose Effort cannot be played."""
-    for part in score.performers:
-        if not has_back(cast.of(part.device)):
-            yield (
-                f"device {part.device!r}: expected a character with a spine, found none; its "
-                "Effort is not played"
-            )
+def _not_played(part: Part) -> str:
+    return (
+        f"device {part.device!r}: expected a character with a spine, found none; its Effort is not "
+        "played"
+    )
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
