@@ -90,7 +90,7 @@ def walks(seed: int, count: int, apart_m: float) -> FloatArray:
 
 
 @given(st.integers(0, 10_000), st.floats(0.0, 3.0), st.floats(0.5, 2.5))
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=15, deadline=None, derandomize=True)
 def test_two_never_come_nearer_and_whoever_is_named_first(seed, apart_m, height_m):
     places = walks(seed, 2, apart_m)
     heights = np.array([1.8, height_m])
