@@ -14,6 +14,7 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.score import Part
 from smd.transfer.performance import Actor, Performance
+from smd.transfer.terrain import Terrain
 
 DOODLE_WIDTH_M = 0.03
 GROUND_RGB: RGB = (0.78, 0.79, 0.80)
@@ -125,13 +126,19 @@ def prop_poses(
     return position, orientation, tracked
 
 
-def define_ground(stage: Usd.Stage, path: str, boxes: Sequence[FloatArray]) -> None:
-    """Define a level plane under everything that the characters do."""
-    low, high = _whole(boxes)
-    (x0, _, z0), (x1, _, z1) = np.floor(low - MARGIN_M), np.ceil(high + MARGIN_M)
-    corners = np.array([[x0, 0.0, z0], [x0, 0.0, z1], [x1, 0.0, z1], [x1, 0.0, z0]])
+def define_ground(
+    stage: Usd.Stage, path: str, boxes: Sequence[FloatArray], terrain: Terrain | None = None
+) -> None:
+    """Define the terrain, or a level plane under everything that the characters do."""
     color = tuple(linear_from_srgb(GROUND_RGB).tolist())
-    mesh = define_mesh(stage, path, corners, np.array([[0, 1, 2], [0, 2, 3]]), color)
+    if terrain is None:
+        low, high = _whole(boxes)
+        (x0, _, z0), (x1, _, z1) = np.floor(low - MARGIN_M), np.ceil(high + MARGIN_M)
+        points = np.array([[x0, 0.0, z0], [x0, 0.0, z1], [x1, 0.0, z1], [x1, 0.0, z0]])
+        triangles = np.array([[0, 1, 2], [0, 2, 3]])
+    else:
+        points, triangles = terrain.points_m, terrain.triangles
+    mesh = define_mesh(stage, path, points, triangles, color)
     material = define_material(stage, f"{path}Material", color, roughness=0.9)
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
 

@@ -97,7 +97,7 @@ def performance_stage(performance: Performance) -> Usd.Stage:
         boxes.append(_define_actor(stage, f"{ACTORS}/{name}", actor, index))
         define_doodle(stage, f"{DOODLES}/{name}", actor, colors)
         define_prop(stage, f"{PROPS}/{name}", actor, performance)
-    define_ground(stage, f"{SCENERY}/Ground", boxes)
+    define_ground(stage, f"{SCENERY}/Ground", boxes, performance.terrain)
     define_camera(stage, f"{SCENERY}/Camera", boxes)
     return stage
 

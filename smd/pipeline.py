@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from smd.recognition.spotting import Recognizer
     from smd.score import Phrase, Score
     from smd.transfer.performance import Performance
+    from smd.transfer.terrain import Terrain
 
 HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
 """Names of devices that are worn, not played with."""
@@ -166,6 +168,7 @@ def animate(
     rate_hz: float = 24.0,
     expressiveness: float = 1.0,
     heading: str = "prop",
+    ground: Terrain | Path | str | None = None,
 ) -> Performance:
     """Act out a Score: each device a character, each phrase an action on the doodle's path.
 
@@ -184,6 +187,8 @@ def animate(
         How much of the Score's Effort is played, from 0 (neutral clips) to 2.
     heading
         What characters face by: "prop", where the prop faces, or "path", where it goes.
+    ground
+        What they go on: a USD file of meshes, or a terrain; by default the level ground.
 
     Raises
     ------
@@ -191,10 +196,13 @@ def animate(
         If the Score names an action, a device or a time that is not there.
     LibraryError
         If a cast has a library for a device that is not in the recording.
+    ImportedFileError
+        If ``ground`` is no USD file, or holds no mesh.
     TransferError
-        If it cannot be acted out.
+        If it cannot be acted out, or there is no ground, or more than one, below a way.
     """
     from smd.transfer.perform import perform
+    from smd.transfer.terrain import read_terrain
 
     return perform(
         score,
@@ -203,4 +211,5 @@ def animate(
         rate_hz=rate_hz,
         expressiveness=expressiveness,
         heading=heading,
+        terrain=read_terrain(ground) if isinstance(ground, str | Path) else ground,
     )

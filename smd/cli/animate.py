@@ -21,6 +21,7 @@ def animate(
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
+    ground: reading.Ground = None,
 ) -> None:
     """Act out a Score, perhaps corrected by hand.
 
@@ -41,7 +42,13 @@ def animate(
     take = options.read(recording)
     cast = reading.LibraryFolders.from_options(library).over(score, score_file).load()
     performance = smd.animate(
-        score, take, cast, rate_hz=fps, expressiveness=expressiveness, heading=heading
+        score,
+        take,
+        cast,
+        rate_hz=fps,
+        expressiveness=expressiveness,
+        heading=heading,
+        ground=ground,
     )
     smd.write(performance, output)
     said = f"{output}: {reading.summary(take, score)}"

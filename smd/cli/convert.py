@@ -26,6 +26,7 @@ def convert(
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
+    ground: reading.Ground = None,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -40,6 +41,7 @@ def convert(
     """
     import smd
     from exporters import require_known_suffix
+    from smd.transfer.terrain import read_terrain
 
     files = list(reading.recording_files(recordings))
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
@@ -52,11 +54,18 @@ def convert(
     understood = reading.understanding(
         options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
     )
+    terrain = None if ground is None else read_terrain(ground)
 
     def one(index: int, file: Path) -> None:
         recording, score = understood(file)
         performance = smd.animate(
-            score, recording, cast, rate_hz=fps, expressiveness=expressiveness, heading=heading
+            score,
+            recording,
+            cast,
+            rate_hz=fps,
+            expressiveness=expressiveness,
+            heading=heading,
+            ground=terrain,
         )
         smd.write(performance, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"

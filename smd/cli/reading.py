@@ -92,6 +92,13 @@ Heading = Annotated[
     HeadingName,
     typer.Option(help="What characters face by: prop, where it faces, or path, where it goes."),
 ]
+Ground = Annotated[
+    Path | None,
+    typer.Option(
+        help="What they walk on: a USD file of meshes; its origin is the middle of the devices' "
+        "first places. Default: the level ground."
+    ),
+]
 FramesPerSecond = Annotated[
     float, typer.Option("--fps", help="Frames per second of the animation.", min=1.0, max=240.0)
 ]

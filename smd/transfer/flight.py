@@ -15,7 +15,7 @@ import numpy as np
 from smd.character.clip import Clip
 from smd.character.kinematics import joints_in_world
 from smd.doodle import Doodle
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.transfer.easing import fading
 from smd.transfer.move import Move
 from smd.transfer.repertoire import Piece
@@ -187,6 +187,14 @@ def raised(all_flights: Sequence[Flight], time_s: FloatArray) -> tuple[FloatArra
         rows = (time_s >= flight.move.start_s) & (time_s < flight.move.end_s)
         body_m[rows], feet_m[rows] = flight.raised_m(time_s[rows])
     return body_m, feet_m
+
+
+def in_air(all_flights: Sequence[Flight], time_s: FloatArray) -> BoolArray:
+    """Return when a performer flies ``(n,)``."""
+    flies = np.zeros(len(time_s), dtype=bool)
+    for flight in all_flights:
+        flies |= (time_s > flight.take_off_s) & (time_s < flight.landing_s)
+    return flies
 
 
 def _over_line_m(body_m: FloatArray, first: int, last: int) -> FloatArray:

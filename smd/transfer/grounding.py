@@ -16,6 +16,7 @@ from smd.transfer.flight import LOWEST
 from smd.transfer.footing import footing
 from smd.transfer.legs import Leg, pelvis_of, sole_height, world_of, yaw_of
 from smd.transfer.poses import Poses
+from smd.transfer.slope import Slope
 from smd.transfer.stepping import stepping
 
 SOFTNESS = 0.004
@@ -46,6 +47,7 @@ def grounded(
     legs: Sequence[Leg],
     rate_hz: float,
     rise: Rise | None = None,
+    slope: Slope | None = None,
 ) -> Poses:
     """Return poses whose feet stand still where they should, and are never in the ground.
 
@@ -59,15 +61,19 @@ def grounded(
         ``(n, legs)`` how far each has turned by the clips' own will.
     rise
         How much higher than the poses body and feet go.
+    slope
+        What they stand on, where the ground is not level.
     """
     rise = rise or Rise(*np.zeros((2, len(stands))))
     raw = [world_of(skeleton, leg.foot, *poses) for leg in legs]
     own_hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]
-    hips = [hip_m + rise.body_m[:, None] * [0.0, 1.0, 0.0] for hip_m in own_hips]
+    ridden_m = 0.0 if slope is None else slope.body_m
+    higher_m = (rise.body_m + ridden_m)[:, None] * [0.0, 1.0, 0.0]
+    hips = [hip_m + higher_m for hip_m in own_hips]
     stands, lift_m = _stepping(legs, raw, stands, pivot_rad, rate_hz)
     feet = []
     for i, leg in enumerate(legs):
-        by = (pivot_rad[:, i], lift_m[:, i], rise.feet_m, rate_hz)
+        by = (pivot_rad[:, i], lift_m[:, i], rise.feet_m, slope, rate_hz)
         foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
         if not foot.able.all():  # let go of the ground earlier, or take hold of it later
             foot = _put(leg, raw[i], hips[i], stands[:, i] & foot.able, *by)
@@ -75,15 +81,20 @@ def grounded(
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     pelvis = pelvis_of(skeleton, legs)
     translation[:, pelvis or 0, 1] += rise.body_m
+    translation[:, 0, 1] += ridden_m
     sunk_m = np.zeros_like(translation[:, 0])
     if pelvis is not None:
-        short_m, room_m = (np.stack(part) for part in zip(*(f[4:] for f in feet), strict=True))
+        short_m, room_m = (np.stack(part) for part in zip(*(f[5:] for f in feet), strict=True))
         sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
         translation[:, pelvis] -= sunk_m
     for i, foot in enumerate(feet):
-        own_m = raw[i][1] + (hips[i] - own_hips[i]) - sunk_m  # the leg's own, with the body
-        offset_m = _loosened(foot.ankle_m - own_m, stands[:, i], rate_hz)
-        _bring(skeleton, foot._replace(ankle_m=own_m + offset_m), rotation, translation)
+        own_m = raw[i][1] + higher_m - sunk_m  # the leg's own, with the body
+        level_m = foot.ankle_m - foot.laid_m
+        ankle_m = own_m + _loosened(level_m - own_m, stands[:, i], rate_hz) + foot.laid_m
+        if slope is not None:
+            in_ground_m = -slope.sole_height(legs[i], foot.rotation_xyzw, ankle_m)
+            ankle_m[:, 1] += np.maximum(in_ground_m, 0.0)
+        _bring(skeleton, foot._replace(ankle_m=ankle_m), rotation, translation)
     return Poses(rotation, translation)
 
 
@@ -102,6 +113,7 @@ class Rise(NamedTuple):
 class _Foot(NamedTuple):
     """Where a foot goes: its rotation and ankle in the world.
 
+    ``laid_m`` is how much of it is due to the ground's not being level;
     ``able`` is when the leg can hold it there;
     ``short_m`` is how much too high the hip is for the leg to reach a standing foot, 0 otherwise;
     ``room_m`` how far it may sink before the knee of a standing foot is bent too much.
@@ -110,6 +122,7 @@ class _Foot(NamedTuple):
     leg: Leg
     rotation_xyzw: FloatArray
     ankle_m: FloatArray
+    laid_m: FloatArray
     able: BoolArray
     short_m: FloatArray
     room_m: FloatArray
@@ -123,6 +136,7 @@ def _put(
     pivot_rad: FloatArray,
     lift_m: FloatArray,
     risen_m: FloatArray,
+    slope: Slope | None,
     rate_hz: float,
 ) -> _Foot:
     """Take the sliding out of a foot, and see whether its leg reaches it."""
@@ -130,6 +144,11 @@ def _put(
     about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
     foot_q, ankle_m = multiply(about, raw[0]), raw[1] + step.shift_m
     ankle_m[:, 1] += np.maximum(risen_m, (LOWEST - 1.0) * sole_height(leg, foot_q, ankle_m))
+    laid_m = np.zeros_like(ankle_m)
+    if slope is not None:
+        level_m = ankle_m + slope.body_m[:, None] * [0.0, 1.0, 0.0]
+        foot_q, ankle_m = slope.laid(leg, foot_q, ankle_m, step.stands, rate_hz)
+        laid_m = ankle_m - level_m
     reach_m = leg.limb.reach_m * (1.0 - SOFTNESS)
     aside_m = np.hypot(*(hip_m - ankle_m)[:, [0, 2]].T)
     above_m = hip_m[:, 1] - ankle_m[:, 1]
@@ -141,7 +160,7 @@ def _put(
     room_m = np.where(step.stands, np.maximum(above_m - lowest_m, 0.0), np.inf)
     able = (short_m <= MOST_SINK_M) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
     able &= np.hypot(aside_m, above_m) >= leg.limb.span_m(MOST_BEND_RAD)
-    return _Foot(leg, foot_q, ankle_m, able, short_m, room_m)
+    return _Foot(leg, foot_q, ankle_m, laid_m, able, short_m, room_m)
 
 
 def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:

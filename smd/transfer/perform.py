@@ -23,7 +23,7 @@ from smd.transfer.course import course
 from smd.transfer.demands import demands
 from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.facing import HEADINGS
-from smd.transfer.flight import flights, height_of, raised
+from smd.transfer.flight import flights, height_of, in_air, raised
 from smd.transfer.grounding import Rise, grounded
 from smd.transfer.legs import pelvis_of
 from smd.transfer.move import Move
@@ -31,7 +31,9 @@ from smd.transfer.path import ground_path
 from smd.transfer.performance import Actor, Performance
 from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Repertoire, repertoire
+from smd.transfer.slope import slope
 from smd.transfer.stage import Stage, stage_for
+from smd.transfer.terrain import Terrain
 from smd.transfer.timeline import timeline
 
 RATE_HZ = 24.0
@@ -52,6 +54,7 @@ def perform(
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
     heading: str = "prop",
+    terrain: Terrain | None = None,
 ) -> Performance:
     """Act out a Score.
 
@@ -69,6 +72,8 @@ def perform(
         How much of the phrases' Effort is played, from 0 (neutral clips) to 2.
     heading
         What performers face by, "prop" or "path".
+    terrain
+        What they go on; by default the level ground.
 
     Returns
     -------
@@ -83,7 +88,8 @@ def perform(
         If a cast has a library for a device that is not in the recording.
     TransferError
         If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2,
-        ``heading`` is neither, or the Score has no performers.
+        ``heading`` is neither, the Score has no performers, or there is no ground or more than
+        one below a performer's way.
     """
     if not 0.0 <= expressiveness <= 2.0:
         raise TransferError(f"expressiveness: expected 0 to 2, got {expressiveness!r}")
@@ -106,14 +112,16 @@ def perform(
         score, recording, cast, time_s, expressiveness=expressiveness, heading=heading
     )
     staged = kept_apart(alone, cast)
-    actors = tuple(act(one, cast.of(one.part.device).character, time_s, rate_hz) for one in staged)
+    actors = tuple(
+        act(one, cast.of(one.part.device).character, time_s, rate_hz, terrain) for one in staged
+    )
     asked = [line for one in staged for line in demands(one.part.device, one.moves)]
     devices = [part.device for part in score.performers]
     before, after = ([one.moves for one in performers] for performers in (alone, staged))
     asked += encounters(devices, before, after, _heights_m(devices, cast))
     # A Score may come from an earlier performance, and have its warnings already.
     warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
-    return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings))
+    return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings), terrain)
 
 
 def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library, Repertoire]:
@@ -222,16 +230,29 @@ def enter(
     return Staged(part, doodles, pieces, moves, clock_s)
 
 
-def act(staged: Staged, character: Character, time_s: FloatArray, rate_hz: float) -> Actor:
+def act(
+    staged: Staged,
+    character: Character,
+    time_s: FloatArray,
+    rate_hz: float,
+    terrain: Terrain | None = None,
+) -> Actor:
     """Act out what a performer does, at even times."""
     pieces, moves, clock_s = staged.pieces, staged.moves, staged.clock_s
     poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
     poses = placed(poses, moves, time_s, rate_hz)
     body = pelvis_of(character.skeleton, pieces.legs) or 0
-    rise = Rise(*raised(list(flights(moves, height_of(staged.doodles), body)), time_s))
+    flown = list(flights(moves, height_of(staged.doodles), body))
+    rise = Rise(*raised(flown, time_s))
+    ground = None
+    if terrain is not None:
+        way = poses.translation_m[:, 0, [0, 2]]
+        ground = slope(terrain, way, in_air(flown, time_s), time_s, rate_hz, staged.part.device)
     feet = [leg.foot for leg in pieces.legs]
     stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
-    poses = grounded(character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz, rise)
+    poses = grounded(
+        character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz, rise, ground
+    )
     return Actor(
         device=staged.part.device,
         character=character,

@@ -11,6 +11,7 @@ from smd.doodle import Doodle
 from smd.errors import TransferError
 from smd.geometry.arrays import FloatArray, frozen_array
 from smd.score import Part, Score
+from smd.transfer.terrain import Terrain
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,12 +56,14 @@ class Performance:
     start_s : the recording's time at frame 0; frame i is at ``start_s + i / rate_hz``.
     actors : one per performer of the Score; all with the same number of frames.
     score : what they perform; its warnings are followed by those of acting it out.
+    terrain : what they go on; None for the level ground.
     """
 
     rate_hz: float
     start_s: float
     actors: tuple[Actor, ...]
     score: Score
+    terrain: Terrain | None = None
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):

@@ -105,3 +105,29 @@ def test_convert_faces_as_asked_and_prints_what_is_asked_too_much(run_smd, stori
         assert "device 'postman': walk at " in out
     assert outputs[0].read_bytes() != outputs[1].read_bytes()
     assert run_smd("convert", take, "--heading", "camera", "-o", tmp_path / "x.usda")[0] == 2
+
+
+def test_a_ground_to_walk_on_is_shown_and_one_that_ends_is_refused(run_smd, stories, tmp_path):
+    from pxr import Usd, UsdGeom
+
+    def hill(name, half_m):
+        stage = Usd.Stage.CreateNew(str(tmp_path / name))
+        UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+        UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+        mesh = UsdGeom.Mesh.Define(stage, "/Hill")
+        corners = [(-1, -1), (-1, 1), (1, 1), (1, -1)]
+        mesh.CreatePointsAttr([(half_m * x, 0.1 * half_m * x, half_m * z) for x, z in corners])
+        mesh.CreateFaceVertexCountsAttr([4])
+        mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+        stage.GetRootLayer().Save()
+        return tmp_path / name
+
+    take, out = stories / "postman.csv", tmp_path / "out.usda"
+    code, _, err = run_smd("convert", take, "--ground", hill("small.usda", 0.5), "-o", out)
+    assert (code, len(err.splitlines()), out.exists()) == (3, 1, False)
+    assert "small.usda: expected ground below 'postman' at " in err
+    assert run_smd("convert", take, "--ground", tmp_path / "none.usda", "-o", out)[0] == 3
+    assert run_smd("convert", take, "--ground", hill("large.usda", 50.0), "-o", out)[0] == 0
+    stage = Usd.Stage.Open(str(out))
+    ground = UsdGeom.Mesh(stage.GetPrimAtPath("/Performance/Scenery/Ground"))
+    assert ground.GetPointsAttr().Get()[2] == (50.0, 5.0, 50.0)
