@@ -137,6 +137,8 @@ def reshaped(clip: Clip, bend_rad: Mapping[int, FloatArray], rest_xyzw: FloatArr
     rest_xyzw
         ``(j, 4)`` how each joint is turned in the world at rest.
     """
+    if not bend_rad:
+        return clip
     joints = list(bend_rad)
     left = rotate(inverse(rest_xyzw[joints]), np.array([1.0, 0.0, 0.0]))
     angle = np.stack([bend_rad[joint] for joint in joints], axis=-1)
