@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from smd.transfer.performance import Performance
 
 
+_USD = (".usda", ".usdc", ".usdz")
+
+
 class StageUp(StrEnum):
     """Axis of the stage that points up."""
 
@@ -71,8 +74,21 @@ class WritingOptions:
         from smd.errors import ExportError
 
         require_known_suffix(path)
-        if self.layers and path.suffix.lower() == ".usdz":
+        suffix = path.suffix.lower()
+        asked = [option for option, value in self._of_usd().items() if value]
+        if asked and suffix not in _USD:
+            raise ExportError(f"{path}: expected {', '.join(_USD)} with {asked[0]}, found {suffix}")
+        if self.layers and suffix == ".usdz":
             raise ExportError(f"{path}: expected .usda or .usdc with --layers, found .usdz")
+
+    def _of_usd(self) -> dict[str, bool]:
+        """Return whether each option that USD alone has was asked for."""
+        return {
+            "--layers": self.layers,
+            "--variants": self.variants,
+            "--stage-up": self.up is not StageUp.Y,
+            "--stage-unit": self.unit is not StageUnit.M,
+        }
 
     def write(
         self, score: Score, act: Callable[[float], Performance], expressiveness: float, path: Path
@@ -81,21 +97,32 @@ class WritingOptions:
 
         ``act`` acts it out with an expressiveness.
         """
-        from actions_library.stage_frame import StageFrame
         from exporters.phrases import write_phrase_table
-        from exporters.usd import usd_file, usd_layers
         from smd.files import write_together
 
         performance = act(expressiveness)
         neutral = act(0.0) if self.variants and has_effort(score) else None
-        frame = StageFrame.named(self.up, self.unit)
-        plan = usd_layers if self.layers else usd_file
-        files = plan(performance, path, neutral=neutral, frame=frame)
+        files = self._files(performance, neutral, path)
         if self.phrases:
             table = path.with_name(f"{path.stem}.phrases.csv")
             files = {table: lambda to: write_phrase_table(performance, to), **files}
         write_together(files)
         return performance
+
+    def _files(
+        self, performance: Performance, neutral: Performance | None, path: Path
+    ) -> dict[Path, Callable[[Path], None]]:
+        """Return what writes each file of the animation itself."""
+        import exporters
+
+        if path.suffix.lower() not in _USD:
+            return {path: lambda to: exporters.write(performance, to)}
+        from actions_library.stage_frame import StageFrame
+        from exporters.usd import usd_file, usd_layers
+
+        plan = usd_layers if self.layers else usd_file
+        frame = StageFrame.named(self.up, self.unit)
+        return plan(performance, path, neutral=neutral, frame=frame)
 
 
 def has_effort(score: Score) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from pxr import Usd, UsdGeom
 
+import exporters
 from laban import Effort
 from smd.score import read_score, write_score
 from tests.smd.cli.test_bad_input import expect_one_line
@@ -60,6 +61,23 @@ def test_a_package_with_layers_costs_one_line(animate, tmp_path):
     code, _, err = animate("out.usdz", "--layers")
     assert "--layers" in expect_one_line(code, err)
     assert [path.name for path in tmp_path.iterdir()] == ["a.score.json"]
+
+
+def write_frames(performance, path) -> None:
+    path.write_text(str(len(performance)))
+
+
+def test_another_format_needs_one_line_and_refuses_what_only_usd_has(
+    animate, tmp_path, monkeypatch
+):
+    monkeypatch.setitem(exporters.WRITERS, ".xyz", f"{__name__}:write_frames")
+    code, _, err = animate("out.xyz", "--phrases")
+    assert code == 0, err
+    assert int((tmp_path / "out.xyz").read_text()) > 100
+    for options in (["--layers"], ["--variants"], ["--stage-up", "z"], ["--stage-unit", "cm"]):
+        code, _, err = animate("other.xyz", *options)
+        assert f"with {options[0]}, found .xyz" in expect_one_line(code, err)
+    assert not (tmp_path / "other.xyz").exists()
 
 
 @pytest.mark.parametrize("folder", ["out.usda", "out.phrases.csv"])
