@@ -21,6 +21,7 @@ from pathlib import Path
 
 from pxr import Sdf, Tf, Usd, UsdGeom
 
+from actions_library.naming import numbered
 from actions_library.stage_frame import OURS, StageFrame
 from actions_library.storage import new_stage
 from actions_library.usd_skel import unique_identifiers
@@ -112,14 +113,17 @@ def usd_layers(
     boxes, references = [], []
     colors = action_colors(performance.score)
     performers = _performers(performance, neutral)
-    for name, performer in zip(_names(performance), performers, strict=True):
+    names = _names(performance)
+    # Where the file system does not tell Left from left, two layers would be one.
+    file_names = numbered(name.lower() for name in names)
+    for name, file_name, performer in zip(names, file_names, performers, strict=True):
         inside = _new_stage(performance, PERFORMER, frame)
         UsdGeom.Xform.Define(inside, f"/{PERFORMER}")
         boxes += [
             define_performer(inside, _IN_LAYER, performer, colors),
             doodle_box(performer.actor),
         ]
-        beside = path.with_name(f"{path.stem}.{name}.usdc")
+        beside = path.with_name(f"{path.stem}.{file_name}.usdc")
         files[beside] = partial(_export, inside.GetRootLayer(), beside)
         for here, there in zip(_places(name), _IN_LAYER, strict=True):
             if prim := inside.GetPrimAtPath(there):  # a doodle of one sample draws nothing
