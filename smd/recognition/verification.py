@@ -47,9 +47,9 @@ _CHEAP_FIRST = (
 )
 _TELLING_FIRST = (_SHAPE, *_CHEAP_FIRST[:-1])
 
-PAIRS = 4096
-"""Of an action and a gesture, that are weighed together: what lies in between for them takes
-64 MiB, however long the recording."""
+PAIRS = 2048
+"""Of an action and a gesture, that are weighed together: what lies in between takes some 30 MiB
+then, however long the recording."""
 
 _FREEDOM = 4.0
 """Of Student's distribution, which measures are taken to follow: what is far out is hardly more

@@ -237,9 +237,10 @@ def _least_sums(costs: Iterable[Single], width: int, lanes: int) -> Single:
         if number:
             sums, before = before, sums
             np.minimum(before[:-1], before[1:], out=sums[:-1])
-        sums[0] += cost[0]
-        for k in range(1, width):
-            here = sums[k]
-            np.minimum(here, sums[k - 1], out=here)
-            here += cost[k]
-    return sums[width // 2]
+        left = sums[0]
+        left += cost[0]
+        for here, own in zip(sums[1:-1], cost[1:], strict=True):
+            np.minimum(here, left, out=here)
+            here += own
+            left = here
+    return np.asarray(sums[width // 2])

@@ -28,7 +28,7 @@ References
 SOFT = 0.25
 """Share of the least distance on both sides of it over which ways begin to bend."""
 
-AHEAD_S = 0.8
+AHEAD_S = 1.6
 """How long before and after they meet two performers begin and end to go aside."""
 
 THROUGH = 0.5

@@ -39,7 +39,7 @@ def gaussian_smoothed(value: FloatArray, sigma: float) -> FloatArray:
     """
     n = len(value)
     reach = min(int(np.ceil(3.0 * sigma)), n - 1)
-    if reach < 1 or sigma <= 0.0:
+    if reach < 1 or sigma <= 0.0 or value.size == 0:
         return value
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     kernel /= kernel.sum()

@@ -30,6 +30,9 @@ LOWEST, HIGHEST = 0.5, 2.0
 """How much lower or higher than its clip a flight goes: a clip's legs push, tuck and land for a
 flight of its own height."""
 
+FLOATING = 3.0
+"""How much more slowly or faster than things fall a body may, as far as its clip's bounds allow."""
+
 YIELDING_S = 0.3
 """Time in which the body gathers the speed that a flight begins with beyond the clip's, and gives
 in to the speed that it ends with: a higher jump crouches deeper, before and after."""
@@ -125,10 +128,12 @@ def apex_for(prop_rise_m: float, duration_s: float, own_apex_m: float) -> float:
     """Return how high a flight goes.
 
     It is the geometric mean of what the prop rose and of what a body thrown up for that time
-    does, g t² / 8, within ``LOWEST`` and ``HIGHEST`` times the clip's own.
+    does, g t² / 8; within `FLOATING` of the latter, and above all within ``LOWEST`` and
+    ``HIGHEST`` times the clip's own.
     """
     thrown_m = GRAVITY_M_S2 * duration_s**2 / 8.0
     meant_m = np.sqrt(max(prop_rise_m, 0.0) * thrown_m)
+    meant_m = np.clip(meant_m, thrown_m / FLOATING, thrown_m * FLOATING)
     return float(np.clip(meant_m, LOWEST * own_apex_m, HIGHEST * own_apex_m))
 
 

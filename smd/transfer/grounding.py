@@ -64,7 +64,7 @@ def grounded(
     slope
         What they stand on, where the ground is not level.
     """
-    rise = rise or Rise(*np.zeros((2, len(stands))))
+    rise = rise or level(len(stands))
     raw = [world_of(skeleton, leg.foot, *poses) for leg in legs]
     own_hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]
     ridden_m = 0.0 if slope is None else slope.body_m
@@ -86,6 +86,7 @@ def grounded(
     if pelvis is not None:
         short_m, room_m = (np.stack(part) for part in zip(*(f[5:] for f in feet), strict=True))
         sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
+        sunk_m[:, 1] = _straight(sunk_m[:, 1], rise.flies)
         translation[:, pelvis] -= sunk_m
     for i, foot in enumerate(feet):
         own_m = raw[i][1] + higher_m - sunk_m  # the leg's own, with the body
@@ -104,10 +105,17 @@ class Rise(NamedTuple):
     Attributes
     ----------
     body_m, feet_m : (n,) in metres.
+    flies : (n,) when the body goes as things fall.
     """
 
     body_m: FloatArray
     feet_m: FloatArray
+    flies: BoolArray
+
+
+def level(frames: int) -> Rise:
+    """Return the rise of a body that goes as its poses have it."""
+    return Rise(np.zeros(frames), np.zeros(frames), np.zeros(frames, dtype=bool))
 
 
 class _Foot(NamedTuple):
@@ -226,6 +234,12 @@ def _sunk(short_m: FloatArray, room_m: FloatArray, rate_hz: float) -> FloatArray
 
     needed = eased(np.minimum(short_m, MOST_SINK_M))
     return np.minimum(needed, -eased(-np.minimum(room_m, MOST_SINK_M)))
+
+
+def _straight(sunk_m: FloatArray, flies: BoolArray) -> FloatArray:
+    """Return how far a body sinks, changing evenly in flights: what falls does not sink as well."""
+    held = np.flatnonzero(~flies)
+    return np.interp(np.arange(len(flies)), held, sunk_m[held]) if len(held) else sunk_m
 
 
 def _bring(skeleton: Skeleton, foot: _Foot, rotation: FloatArray, translation: FloatArray) -> None:

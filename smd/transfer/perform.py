@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from actions_library.cast import Cast, cast_of
-from actions_library.library import Library
+from actions_library.library import IDLE, Library
 from smd.character.character import Character
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
@@ -18,6 +18,7 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Phrase, Score
 from smd.transfer.acting import acted_contacts, acted_poses
+from smd.transfer.body import body_of
 from smd.transfer.company import apart, encounters
 from smd.transfer.course import course
 from smd.transfer.demands import demands
@@ -115,7 +116,8 @@ def perform(
     actors = tuple(
         act(one, cast.of(one.part.device).character, time_s, rate_hz, terrain) for one in staged
     )
-    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    asked = [_not_played(one.part) for one in staged if one.pieces.expressiveness < expressiveness]
+    asked += [line for one in staged for line in demands(one.part.device, one.moves)]
     devices = [part.device for part in score.performers]
     before, after = ([one.moves for one in performers] for performers in (alone, staged))
     asked += encounters(devices, before, after, _heights_m(devices, cast))
@@ -125,14 +127,32 @@ def perform(
 
 
 def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library, Repertoire]:
-    """Return what can be performed with each library of a cast, in this Score."""
+    """Return what can be performed with each library of a cast, in this Score.
+
+    A character without a back to bend plays its clips as they are.
+    """
     phrases: dict[Library, list[Phrase]] = {}
     for part in score.performers:
         phrases.setdefault(cast.of(part.device), []).extend(part.phrases)
     return {
-        library: repertoire(library, spoken, expressiveness=expressiveness)
+        library: repertoire(
+            library, spoken, expressiveness=expressiveness if has_back(library) else 0.0
+        )
         for library, spoken in phrases.items()
     }
+
+
+def has_back(library: Library) -> bool:
+    """Return whether a library's character has a back, which is what Weight bends."""
+    body = body_of(library.clip(IDLE))
+    return bool(body.spine) or body.neck is not None
+
+
+def _not_played(part: Part) -> str:
+    return (
+        f"device {part.device!r}: expected a character with a spine, found none; its Effort is not "
+        "played"
+    )
 
 
 def check_part(part: Part, recording: Recording, library: Library) -> None:
@@ -243,11 +263,11 @@ def act(
     poses = placed(poses, moves, time_s, rate_hz)
     body = pelvis_of(character.skeleton, pieces.legs) or 0
     flown = list(flights(moves, height_of(staged.doodles), body))
-    rise = Rise(*raised(flown, time_s))
+    rise = Rise(*raised(flown, time_s), in_air(flown, time_s))
     ground = None
     if terrain is not None:
         way = poses.translation_m[:, 0, [0, 2]]
-        ground = slope(terrain, way, in_air(flown, time_s), time_s, rate_hz, staged.part.device)
+        ground = slope(terrain, way, rise.flies, time_s, rate_hz, staged.part.device)
     feet = [leg.foot for leg in pieces.legs]
     stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
     poses = grounded(

@@ -44,7 +44,16 @@ def stage_for(recording: Recording, character_height_m: float, figure_height_m: 
     Places scale, times do not. Over the ground, the origin is the middle of the devices' first
     places, so that performers keep their places beside each other; the ground is the lowest
     point that any device reached.
+
+    Raises
+    ------
+    TransferError
+        If the character is not above the ground: its height sets the scale.
     """
+    if not character_height_m > 0.0:
+        raise TransferError(
+            f"character: expected a height above zero, found {character_height_m:.2f} m"
+        )
     first = [recording.of(device)[0].position_m[0] for device in recording.devices]
     lowest = min(float(doodle.position_m[:, 1].min()) for doodle in recording.doodles)
     middle = np.mean(first, axis=0)

@@ -53,7 +53,10 @@ def study_of(clip: Clip, body: Body) -> Study:
     q = clip.rotation_xyzw[:, 1:]
     cosine = np.abs(np.einsum("nji,nji->nj", q[1:], q[:-1])).min(axis=1)
     turning = 2.0 * np.arccos(np.minimum(cosine, 1.0)) * clip.rate_hz
-    height = place[:, body.pelvis, 1] / body.pelvis_height_m
+    # A body without legs may have its pelvis for its lowest joint: it never lies down.
+    height = np.ones(len(clip))
+    if body.pelvis_height_m > 0.0:
+        height = place[:, body.pelvis, 1] / body.pelvis_height_m
     carried = smootherstep((height - GROUNDED) / (CARRIED - GROUNDED))
     return Study(clip, body, way, turning, carried, hands, bearing(hands[..., 1]))
 

@@ -107,6 +107,11 @@ def test_when_the_runtime_quits_the_take_is_kept(play_scene, run_smd, tmp_path):
     assert read_recording(take).of("left")[0].duration_s == pytest.approx(0.45, abs=0.1)
 
 
+def _listens() -> None:
+    """Let Ctrl-C be heard: who runs the tests in the background has them ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGKILL])
 def test_a_take_that_is_stopped_reads_to_its_end(play_scene, tmp_path, stop):
     variables = play_scene(Scene(ROOM))
@@ -116,6 +121,7 @@ def test_a_take_that_is_stopped_reads_to_its_end(play_scene, tmp_path, stop):
         env={**os.environ, **variables},
         stdout=subprocess.PIPE,
         text=True,
+        preexec_fn=_listens,
     )
     while not take.exists() or take.stat().st_size < 8_000:
         assert process.poll() is None

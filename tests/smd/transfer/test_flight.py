@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from smd.character.clip import Clip
 from smd.doodle import Doodle, Recording
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
@@ -67,6 +68,7 @@ def test_a_body_that_rises_as_far_as_gravity_has_it_goes_as_high_as_thrown():
     assert apex_for(thrown_m, 0.5, thrown_m) == pytest.approx(thrown_m)
     assert apex_for(4.0 * thrown_m, 0.5, thrown_m) == pytest.approx(2.0 * thrown_m)
     assert apex_for(0.0, 0.5, 0.3) == pytest.approx(LOWEST * 0.3)
+    assert apex_for(0.0, 0.8, 0.3) == pytest.approx(GRAVITY_M_S2 * 0.8**2 / 8.0 / 3.0)
     assert apex_for(50.0, 0.5, 0.3) == pytest.approx(HIGHEST * 0.3)
 
 
@@ -108,17 +110,20 @@ def test_a_flight_is_a_parabola_and_joins_the_clip_without_a_jump(library, name,
         assert abs(after - before) < 0.04 * 8.0 * flight.apex_m / duration_s**2 + 1.0
 
 
-@pytest.mark.parametrize("lasting_s, rise_m", [(2.0, 0.01), (2.0, 0.03), (2.5, 0.02)])
+@pytest.mark.parametrize(
+    ("name", "lasting_s", "rise_m"),
+    [("jump", 2.0, 0.01), ("jump", 2.0, 0.03), ("jump", 2.5, 0.02), ("leap", 2.5, 0.02)],
+)
 def test_a_jump_is_as_high_as_drawn_and_its_feet_fly_as_long_as_its_body(
-    library, lasting_s, rise_m
+    library, name, lasting_s, rise_m
 ):
-    recording, score = hop("jump", lasting_s, rise_m)
+    recording, score = hop(name, lasting_s, rise_m)
     (actor,) = animate(score, recording, library, rate_hz=RATE_HZ).actors
-    skeleton, clip = library.character.skeleton, library.clip("jump")
+    skeleton, clip = library.character.skeleton, library.clip(name)
     legs, hips = legs_of(skeleton, feet_of(clip)), skeleton.index("hips")
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
     body_m = body_height(clip, hips)
-    first, last = flight_frames(piece(library, "jump"), body_m)
+    first, last = flight_frames(piece(library, name), body_m)
     flown_s = lasting_s * (last - first) / (len(clip) - 1)  # the clip lasts as long as the phrase
     own_m = (body_m - np.interp(np.arange(len(clip)), [first, last], body_m[[first, last]])).max()
     apex_m = apex_for(stage.scale * rise_m, flown_s, own_m)
@@ -135,3 +140,34 @@ def test_a_jump_is_as_high_as_drawn_and_its_feet_fly_as_long_as_its_body(
     assert (np.diff(airborne) == 1).all()
     bend = np.diff(world_of(skeleton, hips, *local)[1][airborne[2:-2], 1], 2) * RATE_HZ**2
     assert bend == pytest.approx(-8.0 * apex_m / flown_s**2, rel=0.02)
+
+
+def test_who_falls_from_a_height_falls_along_a_parabola_too(skeleton):
+    """From 1 m up, at rest, in the 0.45 s that it takes; the clip's own fall is a straight line."""
+    n, first, last = 61, 15, 42
+    phase = np.clip((np.arange(n) - first) / (last - first), 0.0, 1.0)
+    translation = np.tile(skeleton.rest_translation_m, (n, 1, 1))
+    translation[:, 1, 1] += 1.0 - phase + 0.2 * phase * (1.0 - phase)
+    touches = (np.arange(n) <= first) | (np.arange(n) >= last)
+    clip = Clip(
+        name="drop",
+        skeleton=skeleton,
+        rate_hz=60.0,
+        rotation_xyzw=np.tile(skeleton.rest_rotation_xyzw, (n, 1, 1)),
+        translation_m=translation,
+        stage_end_frames=np.array([0, first, last, n - 1, n - 1]),
+        contact_joints=("left_foot", "right_foot"),
+        contacts=np.stack([touches, touches], axis=-1),
+    )
+    studied = piece_of(clip, travels=False, legs=())
+    body_m = body_height(clip, 1)
+    assert flight_frames(studied, body_m) == (first, last)
+    time_s = np.linspace(0.0, 1.0, 1001)
+    (flight,) = flights([move_of(studied, 0.0, 1.0)], Height(time_s, 0.0 * time_s), 1)
+    raised_m, _ = flight.raised_m(time_s)
+    falls = (time_s > first / 60.0) & (time_s < last / 60.0)
+    height_m = np.interp(60.0 * time_s, np.arange(n), body_m) + raised_m
+    apex_m = apex_for(0.0, (last - first) / 60.0, 0.05)
+    s = (time_s - first / 60.0) / ((last - first) / 60.0)
+    expected_m = skeleton.rest_translation_m[1, 1] + 1.0 - s + 4.0 * apex_m * s * (1.0 - s)
+    assert height_m[falls] == pytest.approx(expected_m[falls], abs=2e-3)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from smd.doodle import Doodle, Recording
+from smd.errors import TransferError
 from smd.transfer.stage import stage_for
 
 
@@ -43,3 +44,9 @@ def test_the_ground_is_the_lowest_point_that_any_device_reached():
     stage = stage_for(take, 1.75, 0.175)
     heights = [stage.placed(d.position_m)[:, 1].min() for d in take.doodles]
     assert min(heights) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("height_m", [0.0, -1.0, float("nan")])
+def test_a_character_without_height_gives_no_scale(height_m):
+    with pytest.raises(TransferError, match="character: expected a height above zero, found"):
+        stage_for(recording(), height_m, 0.175)

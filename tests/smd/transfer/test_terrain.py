@@ -13,7 +13,7 @@ SQUARE = np.array([[-2.0, 0.0, -2.0], [-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
 
 
-def hills(seed: int, count: int = 60) -> Terrain:
+def hills(seed: int, count: int = 40) -> Terrain:
     """Points at random heights, joined as Delaunay did it over the ground."""
     rng = np.random.default_rng(seed)
     places = rng.uniform(-5.0, 5.0, (count, 2))
@@ -25,10 +25,10 @@ def hills(seed: int, count: int = 60) -> Terrain:
     return Terrain(points, triangles)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_heights_are_those_of_looking_at_every_triangle(seed):
     terrain = hills(seed)
-    places = np.random.default_rng(seed + 100).uniform(-6.0, 6.0, (200, 2))
+    places = np.random.default_rng(seed + 100).uniform(-6.0, 6.0, (60, 2))
     found = terrain.height_at(places)
     for place, height in zip(places, found, strict=True):
         expected = height_over(terrain.points_m, terrain.triangles, *place)
