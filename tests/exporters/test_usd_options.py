@@ -137,6 +137,15 @@ def test_each_variant_plays_its_own_performance(framed, performance, neutral, tm
         assert findings(stage) == []
 
 
+def test_what_both_variants_share_is_stored_once(performance, tmp_path):
+    write_usd(performance, tmp_path / "one.usdc")
+    # Arrays of another performance, equal but not the same.
+    again = tuple(replace(actor) for actor in performance.actors)
+    write_usd(performance, tmp_path / "two.usdc", neutral=replace(performance, actors=again))
+    one, two = ((tmp_path / f"{name}.usdc").stat().st_size for name in ("one", "two"))
+    assert two - one < 1000
+
+
 def test_without_a_neutral_performance_there_are_no_variants(plain):
     assert plain.GetPrimAtPath(ACTOR).GetVariantSets().GetNames() == []
 
