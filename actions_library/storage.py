@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
+from pxr import Sdf, Tf, Usd, UsdSkel, Vt
 
+from actions_library.stage_frame import OURS, StageFrame
 from actions_library.usd_skel import (
     ANIMATION,
     bind_animation,
@@ -35,11 +36,10 @@ _CLIP_DATA = "smd"
 _CLIP_ROOT = "/Clip"
 
 
-def new_stage(root: str) -> Usd.Stage:
-    """Return an empty stage in memory, Y up, in metres, with its default prim's path set."""
+def new_stage(root: str, frame: StageFrame = OURS) -> Usd.Stage:
+    """Return an empty stage in memory, by default Y up in metres, its default prim's path set."""
     stage = Usd.Stage.Open(Sdf.Layer.CreateAnonymous(".usdc"))
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
-    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    frame.mark(stage)
     stage.GetRootLayer().defaultPrim = root
     return stage
 

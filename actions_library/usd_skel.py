@@ -4,7 +4,8 @@ This is one of the two doors (the other is `exporters.usd`) at which our convent
 row vectors in matrices, and quaternions that print their real part first. In memory a
 ``GfQuatf`` lies as x, y, z, w, so that an array of ours is an array of USD's without a copy of
 its own. Points, weights, rotations and translations are stored in single precision, rest and
-bind transforms in double.
+bind transforms in double. What is defined is given in metres, Y up, and stored in the frame that
+its stage says it has.
 
 References
 ----------
@@ -22,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade, UsdSkel, Vt
 
 from actions_library.naming import numbered
+from actions_library.stage_frame import StageFrame
 from smd.character.character import MAX_INFLUENCES, Character, Mesh
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -134,8 +136,10 @@ def define_animation(
     animation.CreateJointsAttr(joint_paths(skeleton))
     # Readers want all three of rotations, translations and scales, or show no pose at all.
     animation.CreateScalesAttr(Vt.Vec3hArray(len(skeleton), Gf.Vec3h(1.0)))
-    set_samples(animation.CreateRotationsAttr(), rotation_xyzw, Vt.QuatfArray)
-    set_samples(animation.CreateTranslationsAttr(), translation_m, Vt.Vec3fArray)
+    frame = StageFrame.of(stage)
+    rotations, translations = frame.rotations(rotation_xyzw), frame.points(translation_m)
+    set_samples(animation.CreateRotationsAttr(), rotations, Vt.QuatfArray)
+    set_samples(animation.CreateTranslationsAttr(), translations, Vt.Vec3fArray)
     return animation
 
 
@@ -150,12 +154,14 @@ def bind_animation(root: UsdSkel.Root, animation: UsdSkel.Animation) -> None:
 def set_samples(attribute: Usd.Attribute, values: ArrayLike, kind: Any) -> None:
     """Give an attribute one array a frame: ``values (n, k, components)`` at codes 0 … n - 1.
 
+    They are stored as they are, in the stage's own frame.
+
     Samples go to the layer directly, inside one change block: through the stage each would pay
     for resolution and notices.
     """
     single = np.ascontiguousarray(values, dtype=np.float32)
-    layer = attribute.GetStage().GetEditTarget().GetLayer()
-    path = attribute.GetPath()
+    target = attribute.GetStage().GetEditTarget()
+    layer, path = target.GetLayer(), target.MapToSpecPath(attribute.GetPath())
     with Sdf.ChangeBlock():
         for frame, value in enumerate(single):
             layer.SetTimeSample(path, float(frame), kind.FromNumpy(value))
@@ -209,11 +215,12 @@ def _define_skeleton(stage: Usd.Stage, path: str, skeleton: Skeleton) -> UsdSkel
     rest = np.tile(np.eye(4), (len(skeleton), 1, 1))
     rest[:, :3, :3] = matrix_from_quaternion(skeleton.rest_rotation_xyzw)
     rest[:, :3, 3] = skeleton.rest_translation_m
+    frame = StageFrame.of(stage)
     prim = UsdSkel.Skeleton.Define(stage, path)
     prim.CreateJointsAttr(joint_paths(skeleton))
     prim.CreateJointNamesAttr(list(skeleton.joints))
-    prim.CreateBindTransformsAttr(_row_matrices(skeleton.world_from_bind))
-    prim.CreateRestTransformsAttr(_row_matrices(rest))
+    prim.CreateBindTransformsAttr(_row_matrices(frame.transforms(skeleton.world_from_bind)))
+    prim.CreateRestTransformsAttr(_row_matrices(frame.transforms(rest)))
     prim.GetPrim().SetCustomDataByKey(_ROLES, Vt.StringArray(list(skeleton.roles)))
     return prim
 
@@ -276,13 +283,14 @@ def define_mesh(
 ) -> UsdGeom.Mesh:
     """Define a triangle mesh of one colour, smooth by its normals, with its extent."""
     prim = UsdGeom.Mesh.Define(stage, path)
-    points = points_m.astype(np.float32)
+    frame = StageFrame.of(stage)
+    points = frame.points(points_m).astype(np.float32)
     # No subdivision: the triangles are the surface, and the normals make it smooth.
     prim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
     prim.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points))
     prim.CreateFaceVertexCountsAttr(Vt.IntArray(len(triangles), 3))
     prim.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(triangles.ravel().astype(np.int32)))
-    normals = vertex_normals(points_m, triangles).astype(np.float32)
+    normals = frame.directions(vertex_normals(points_m, triangles)).astype(np.float32)
     prim.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals))
     prim.SetNormalsInterpolation(UsdGeom.Tokens.vertex)
     prim.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(np.stack([points.min(0), points.max(0)])))

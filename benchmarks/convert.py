@@ -109,11 +109,17 @@ def main() -> None:
             len(performance.actors),
             sum(len(mesh.points_m) for mesh in character.meshes),
         ]
-        whole, bare = run(
-            [python, "-m", "smd.cli", "convert", str(take), "-o", str(output)],
+        command = [python, "-m", "smd.cli", "convert", str(take), "-o"]
+        both = Path(folder, "both.usdc")
+        whole, varied, bare = run(
+            [*command, str(output)],
+            [*command, str(both), "--variants"],
             [python, str(floor), str(take), str(Path(folder, "floor.usdc")), *map(str, sizes)],
         )
         print(f"smd convert      {whole}   (budget 3 s, 1024 MiB)")
+        print(f"with --variants  {varied}")
+        large, small = (path.stat().st_size / 2**20 for path in (both, output))
+        print(f"its file         {large:.1f} MiB, without {small:.1f} MiB")
         print(f"floor            {bare}")
         print(f"ratio            {median(whole.wall_s) / median(bare.wall_s):.2f}")
 

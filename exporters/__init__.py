@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from smd.errors import ExportError
 
@@ -19,8 +19,18 @@ WRITERS = {
 """By suffix, the function that writes such a file; its module is imported when it is needed."""
 
 
-def write(performance: Performance, path: Path | str) -> None:
+def write(performance: Performance, path: Path | str, **options: Any) -> None:
     """Write a performance in the format that the file's suffix names.
+
+    Parameters
+    ----------
+    performance
+        What to write.
+    path
+        Replaced as a whole once written.
+    options
+        Those of the format's function in `WRITERS`; for USD ``neutral`` and ``frame``
+        (`exporters.usd.write_usd`).
 
     Raises
     ------
@@ -30,7 +40,7 @@ def write(performance: Performance, path: Path | str) -> None:
     path = Path(path)
     require_known_suffix(path)
     module, function = WRITERS[path.suffix.lower()].split(":")
-    getattr(import_module(module), function)(performance, path)
+    getattr(import_module(module), function)(performance, path, **options)
 
 
 def require_known_suffix(path: Path) -> None:

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 
 from exporters.palette import RGB, srgb_from_linear
-from exporters.usd import DEVICE_KEY, PROPS, SCORE_KEY, START_KEY
+from exporters.performer import DEVICE_KEY
+from exporters.usd import PROPS, SCORE_KEY, START_KEY
 from smd.errors import ExportError
 from smd.geometry.arrays import FloatArray
 from smd.score import Score, score_from_json

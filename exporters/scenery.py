@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
 
+from actions_library.stage_frame import StageFrame
 from actions_library.usd_skel import define_material, define_mesh
 from exporters.palette import IDLE_RGB, RGB, linear_from_srgb
 from smd.doodle import Doodle
@@ -19,8 +20,18 @@ from smd.transfer.terrain import Terrain
 DOODLE_WIDTH_M = 0.03
 GROUND_RGB: RGB = (0.78, 0.79, 0.80)
 PROP_RGB: RGB = (0.95, 0.55, 0.10)
+BACK = np.array([0.45, 0.35, 1.0]) / np.linalg.norm([0.45, 0.35, 1.0])
+"""From the performers to the camera."""
+
+WIDE = 16.0 / 9.0
+_HEIGHT_MM, _FOCAL_MM = 20.25, 40.0  # of Super 35 film, the lens long enough to bend nothing
+_HALF_HEIGHT = 0.5 * _HEIGHT_MM / _FOCAL_MM / 1.08  # room around what is seen
+
 MARGIN_M = 2.0
-"""Of ground around everything that the characters do."""
+"""Of ground around everything that is on it."""
+
+REACH_M = 0.3
+"""How far a prop reaches from where it is, at most."""
 
 # A dart, its nose to +Z and its fin to +Y: it shows which way the prop faces and which is up.
 _DART_M = 0.4 * np.array(
@@ -45,20 +56,22 @@ def define_doodle(
             colors.append(action_colors[action] if action else IDLE_RGB)
     if not points:
         return
-    drawn = np.concatenate(points).astype(np.float32)
+    frame = StageFrame.of(stage)
+    drawn = frame.points(np.concatenate(points)).astype(np.float32)
     curves = UsdGeom.BasisCurves.Define(stage, path)
     curves.CreateTypeAttr(UsdGeom.Tokens.linear)
     curves.CreateWrapAttr(UsdGeom.Tokens.nonperiodic)
     curves.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(drawn))
     curves.CreateCurveVertexCountsAttr(counts)
-    curves.CreateWidthsAttr([DOODLE_WIDTH_M])
+    curves.CreateWidthsAttr([frame.length(DOODLE_WIDTH_M)])
     curves.SetWidthsInterpolation(UsdGeom.Tokens.constant)
-    radius = 0.5 * DOODLE_WIDTH_M
+    radius = 0.5 * frame.length(DOODLE_WIDTH_M)
     box = np.stack([drawn.min(axis=0) - radius, drawn.max(axis=0) + radius])
     curves.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(box))
-    curves.CreateDisplayColorPrimvar(UsdGeom.Tokens.uniform).Set(
-        Vt.Vec3fArray.FromNumpy(linear_from_srgb(colors).astype(np.float32))
-    )
+    seen = list(dict.fromkeys(colors))
+    shown = curves.CreateDisplayColorPrimvar(UsdGeom.Tokens.uniform)
+    shown.Set(Vt.Vec3fArray.FromNumpy(linear_from_srgb(seen).astype(np.float32)))
+    shown.SetIndices(Vt.IntArray([seen.index(color) for color in colors]))
 
 
 def stretches(doodle: Doodle, part: Part) -> Iterator[tuple[str, slice]]:
@@ -80,22 +93,30 @@ def stretches(doodle: Doodle, part: Part) -> Iterator[tuple[str, slice]]:
             yield action, slice(int(first), int(last) + 1)
 
 
+def doodle_box(actor: Actor) -> FloatArray:
+    """Return the box ``(1, 2, 3)`` that an actor's doodles and prop are in."""
+    every = np.concatenate([doodle.position_m for doodle in actor.doodles])
+    return np.stack([every.min(axis=0) - REACH_M, every.max(axis=0) + REACH_M])[None]
+
+
 def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performance) -> None:
     """Define a dart that is where and how the prop was, hidden while tracking was lost."""
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     position, orientation, tracked = prop_poses(actor.doodles, time_s)
+    frame = StageFrame.of(stage)
+    places, turns = frame.points(position).tolist(), frame.rotations(orientation).tolist()
     prop = UsdGeom.Xform.Define(stage, path)
     translate = prop.AddTranslateOp().GetAttr().GetPath()
     orient = prop.AddOrientOp().GetAttr().GetPath()
     visibility = prop.CreateVisibilityAttr().GetPath()
-    layer = stage.GetRootLayer()
+    layer = stage.GetEditTarget().GetLayer()
     with Sdf.ChangeBlock():
-        for frame, (p, q) in enumerate(zip(position.tolist(), orientation.tolist(), strict=True)):
-            layer.SetTimeSample(translate, float(frame), Gf.Vec3d(*p))
-            layer.SetTimeSample(orient, float(frame), Gf.Quatf(q[3], q[0], q[1], q[2]))
-        for frame in (0, *(np.flatnonzero(np.diff(tracked)) + 1).tolist()):
-            value = UsdGeom.Tokens.inherited if tracked[frame] else UsdGeom.Tokens.invisible
-            layer.SetTimeSample(visibility, float(frame), value)
+        for code, (p, q) in enumerate(zip(places, turns, strict=True)):
+            layer.SetTimeSample(translate, float(code), Gf.Vec3d(*p))
+            layer.SetTimeSample(orient, float(code), Gf.Quatf(q[3], q[0], q[1], q[2]))
+        for code in (0, *(np.flatnonzero(np.diff(tracked)) + 1).tolist()):
+            value = UsdGeom.Tokens.inherited if tracked[code] else UsdGeom.Tokens.invisible
+            layer.SetTimeSample(visibility, float(code), value)
     color = tuple(linear_from_srgb(PROP_RGB).tolist())
     # Each face has its own corners, so that the dart keeps its edges.
     faces = np.arange(_DART_FACES.size).reshape(-1, 3)
@@ -144,21 +165,51 @@ def define_ground(
 
 
 def define_camera(stage: Usd.Stage, path: str, boxes: Sequence[FloatArray]) -> None:
-    """Define a camera that sees everything the characters do, from their front left."""
-    low, high = _whole(boxes)
-    target, radius_m = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
+    """Define a camera that sees everything in the boxes ``(n, 2, 3)``, from their front left."""
+    eye_m, away_m = camera_place(np.concatenate(boxes), BACK, _HALF_HEIGHT * WIDE, _HALF_HEIGHT)
+    frame = StageFrame.of(stage)
     camera = UsdGeom.Camera.Define(stage, path)
-    width_mm, height_mm, focal_mm = 36.0, 20.25, 40.0
-    distance_m = 1.05 * radius_m / np.sin(np.arctan(0.5 * height_mm / focal_mm))
-    away = np.array([0.45, 0.35, 1.0])
-    eye = target + distance_m * away / np.linalg.norm(away)
-    camera.CreateHorizontalApertureAttr(width_mm)
-    camera.CreateVerticalApertureAttr(height_mm)
-    camera.CreateFocalLengthAttr(focal_mm)
-    camera.CreateClippingRangeAttr(Gf.Vec2f(0.05, float(distance_m + 4.0 * radius_m)))
-    camera.CreateFocusDistanceAttr(float(distance_m))
-    view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(*eye), Gf.Vec3d(*target), Gf.Vec3d(0, 1, 0))
+    tenth = 10.0 * frame.length(0.001)  # USD has lenses in tenths of the stage's unit
+    camera.CreateHorizontalApertureAttr(WIDE * _HEIGHT_MM * tenth)
+    camera.CreateVerticalApertureAttr(_HEIGHT_MM * tenth)
+    camera.CreateFocalLengthAttr(_FOCAL_MM * tenth)
+    near, far = frame.length(0.05), frame.length(4.0 * away_m)
+    camera.CreateClippingRangeAttr(Gf.Vec2f(near, far))
+    camera.CreateFocusDistanceAttr(frame.length(away_m))
+    eye, back = frame.points(eye_m), frame.directions(BACK)
+    up = frame.directions([0.0, 1.0, 0.0])
+    view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(*eye), Gf.Vec3d(*(eye - back)), Gf.Vec3d(*up))
     camera.AddTransformOp().Set(view.GetInverse())
+
+
+def camera_place(
+    boxes_m: FloatArray, back: FloatArray, half_width: float, half_height: float
+) -> tuple[FloatArray, float]:
+    """Return the nearest place from which boxes are seen whole, and how far their middle is.
+
+    Parameters
+    ----------
+    boxes_m
+        ``(n, 2, 3)``, least and greatest corners.
+    back
+        From what is seen to the camera, unit, not upright.
+    half_width, half_height
+        Of the picture, one unit before the camera.
+    """
+    right = np.cross([0.0, 1.0, 0.0], back)
+    right /= np.linalg.norm(right)
+    axes = np.stack([right, np.cross(back, right), back])
+    which = np.array(list(np.ndindex(2, 2, 2)))
+    x, y, z = (boxes_m[:, which, [0, 1, 2]].reshape(-1, 3) @ axes.T).T
+    # A point is in the picture where |x - eye_x| <= half_width (eye_z - z): four planes that
+    # bound the eye, each by one point.
+    left, right_, low, high = (
+        float(np.max(side + half * z))
+        for side, half in ((-x, half_width), (x, half_width), (-y, half_height), (y, half_height))
+    )
+    distance = max((left + right_) / (2.0 * half_width), (low + high) / (2.0 * half_height))
+    eye = np.array([0.5 * (right_ - left), 0.5 * (high - low), distance])
+    return eye @ axes, distance - 0.5 * float(z.min() + z.max())
 
 
 def _whole(boxes: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:

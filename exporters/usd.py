@@ -15,42 +15,47 @@ performance has frames. The Score travels along as text, in the layer's custom d
 
 from __future__ import annotations
 
-import tempfile
-import zipfile
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
-from pxr import Sdf, Tf, Usd, UsdGeom, Vt
+from pxr import Sdf, Tf, Usd, UsdGeom
 
+from actions_library.naming import numbered
+from actions_library.stage_frame import OURS, StageFrame
 from actions_library.storage import new_stage
-from actions_library.usd_skel import (
-    ANIMATION,
-    bind_animation,
-    define_animation,
-    define_character,
-    set_samples,
-    unique_identifiers,
-)
-from exporters.bounds import body_boxes
-from exporters.palette import action_colors, performer_colors
-from exporters.scenery import define_camera, define_doodle, define_ground, define_prop
+from actions_library.usd_skel import unique_identifiers
+from exporters.package import write_package
+from exporters.palette import action_colors
+from exporters.performer import Performer, Places, define_performer
+from exporters.scenery import define_camera, define_ground, doodle_box
 from smd.errors import ExportError
-from smd.files import replacing
+from smd.files import write_together
 from smd.geometry.arrays import FloatArray
 from smd.score import score_to_json
-from smd.transfer.performance import Actor, Performance
+from smd.transfer.performance import Performance
 
-ROOT = "Performance"
+ROOT, PERFORMER = "Performance", "Performer"
 ACTORS, DOODLES, PROPS, SCENERY = (
     f"/{ROOT}/{name}" for name in ("Actors", "Doodles", "Props", "Scenery")
 )
-SCORE_KEY, START_KEY, DEVICE_KEY = "smd:score", "smd:start_s", "smd:device"
-"""In the layer's custom data the first two, in each SkelRoot's the last."""
+SCORE_KEY, START_KEY = "smd:score", "smd:start_s"
+"""In the layer's custom data."""
 
-_ALIGNMENT = 64  # usdz: readers map the layers inside straight into memory
+_IN_LAYER = Places(*(f"/{PERFORMER}/{name}" for name in ("Actor", "Doodle", "Prop")))
+
+Files = dict[Path, Callable[[Path], None]]
+"""What writes each of the files that belong together (`smd.files.write_together`)."""
 
 
-def write_usd(performance: Performance, path: Path | str) -> None:
-    """Write a performance as USD; equal performances give equal bytes.
+def write_usd(
+    performance: Performance,
+    path: Path | str,
+    *,
+    neutral: Performance | None = None,
+    frame: StageFrame = OURS,
+) -> None:
+    """Write a performance as one USD file; equal performances give equal bytes.
 
     Parameters
     ----------
@@ -58,85 +63,162 @@ def write_usd(performance: Performance, path: Path | str) -> None:
         What to write.
     path
         Ends in .usda, .usdc or .usdz; replaced as a whole once written.
+    neutral
+        The same Score performed without expression: it becomes the variant ``neutral`` of each
+        character's variant set ``expression``, and ``performance`` the variant ``expressive``.
+    frame
+        Coordinates of the stage.
 
     Raises
     ------
     ExportError
-        If the file cannot be written.
+        If the file cannot be written, or the two performances do not fit each other.
     """
-    path = Path(path)
-    layer = performance_stage(performance).GetRootLayer()
-    with replacing(path) as temporary:
-        try:
-            if path.suffix.lower() == ".usdz":
-                _write_package(layer, temporary)
-            else:
-                layer.Export(str(temporary))
-        except Tf.ErrorException as error:
-            raise ExportError(f"{path}: cannot be written: {_first_line(error)}") from error
+    write_together(usd_file(performance, Path(path), neutral=neutral, frame=frame))
 
 
-def performance_stage(performance: Performance) -> Usd.Stage:
-    """Return a performance as a stage in memory."""
-    stage = new_stage(ROOT)
+def write_usd_layers(
+    performance: Performance,
+    path: Path | str,
+    *,
+    neutral: Performance | None = None,
+    frame: StageFrame = OURS,
+) -> None:
+    """Write a performance as a small file that references one more for each performer.
+
+    For ``take.usda`` they are ``take.<device>.usdc`` beside it. All of them are replaced, or
+    none. Parameters and errors are those of `write_usd`; a package is one file, so that .usdz
+    is an error too.
+    """
+    write_together(usd_layers(performance, Path(path), neutral=neutral, frame=frame))
+
+
+def usd_file(
+    performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
+) -> Files:
+    """Return what writes the file of `write_usd`."""
+    layer = performance_stage(performance, neutral=neutral, frame=frame).GetRootLayer()
+    return {path: partial(_export, layer, path)}
+
+
+def usd_layers(
+    performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
+) -> Files:
+    """Return what writes the files of `write_usd_layers`, the one that refers to others last."""
+    if path.suffix.lower() not in (".usda", ".usdc"):
+        raise ExportError(f"{path}: expected .usda or .usdc for layers, found {path.suffix}")
+    stage = _new_stage(performance, ROOT, frame)
+    _define_scopes(stage)
+    files: Files = {}
+    boxes, references = [], []
+    colors = action_colors(performance.score)
+    performers = _performers(performance, neutral)
+    names = _names(performance)
+    # Where the file system does not tell Left from left, two layers would be one.
+    file_names = numbered(name.lower() for name in names)
+    for name, file_name, performer in zip(names, file_names, performers, strict=True):
+        inside = _new_stage(performance, PERFORMER, frame)
+        UsdGeom.Xform.Define(inside, f"/{PERFORMER}")
+        boxes += [
+            define_performer(inside, _IN_LAYER, performer, colors),
+            doodle_box(performer.actor),
+        ]
+        beside = path.with_name(f"{path.stem}.{file_name}.usdc")
+        files[beside] = partial(_export, inside.GetRootLayer(), beside)
+        for here, there in zip(_places(name), _IN_LAYER, strict=True):
+            if prim := inside.GetPrimAtPath(there):  # a doodle of one sample draws nothing
+                references.append(
+                    (here, prim.GetTypeName(), Sdf.Reference(f"./{beside.name}", there))
+                )
+    _define_scenery(stage, performance, boxes)
+    layer = stage.GetRootLayer()
+    # Only now, with no stage to compose it: from memory the relative paths lead nowhere.
+    del stage
+    for here, kind, reference in references:
+        prim = Sdf.CreatePrimInLayer(layer, here)
+        prim.specifier, prim.typeName = Sdf.SpecifierDef, kind
+        prim.referenceList.Prepend(reference)
+    files[path] = partial(_export, layer, path)
+    return files
+
+
+def performance_stage(
+    performance: Performance,
+    *,
+    neutral: Performance | None = None,
+    frame: StageFrame = OURS,
+) -> Usd.Stage:
+    """Return a performance as a stage in memory; parameters are those of `write_usd`."""
+    stage = _new_stage(performance, ROOT, frame)
+    _define_scopes(stage)
+    colors = action_colors(performance.score)
+    boxes = []
+    performers = _performers(performance, neutral)
+    for name, performer in zip(_names(performance), performers, strict=True):
+        boxes += [
+            define_performer(stage, _places(name), performer, colors),
+            doodle_box(performer.actor),
+        ]
+    _define_scenery(stage, performance, boxes)
+    return stage
+
+
+def _new_stage(performance: Performance, root: str, frame: StageFrame) -> Usd.Stage:
+    stage = new_stage(root, frame)
     stage.SetTimeCodesPerSecond(performance.rate_hz)
     stage.SetFramesPerSecond(performance.rate_hz)
     stage.SetStartTimeCode(0)
     stage.SetEndTimeCode(len(performance) - 1)
+    return stage
+
+
+def _define_scopes(stage: Usd.Stage) -> None:
+    UsdGeom.Xform.Define(stage, f"/{ROOT}")
+    for scope in (ACTORS, DOODLES, PROPS, SCENERY):
+        UsdGeom.Scope.Define(stage, scope)
+
+
+def _define_scenery(
+    stage: Usd.Stage, performance: Performance, boxes: Sequence[FloatArray]
+) -> None:
+    """Define what stands around the performers, and write what is performed."""
+    define_ground(stage, f"{SCENERY}/Ground", boxes, performance.terrain)
+    define_camera(stage, f"{SCENERY}/Camera", boxes)
     stage.GetRootLayer().customLayerData = {
         SCORE_KEY: score_to_json(performance.score),
         START_KEY: performance.start_s,
     }
-    UsdGeom.Xform.Define(stage, f"/{ROOT}")
-    for scope in (ACTORS, DOODLES, PROPS, SCENERY):
-        UsdGeom.Scope.Define(stage, scope)
-    colors = action_colors(performance.score)
-    boxes = []
-    names = unique_identifiers(actor.device for actor in performance.actors)
-    for index, (name, actor) in enumerate(zip(names, performance.actors, strict=True)):
-        boxes.append(_define_actor(stage, f"{ACTORS}/{name}", actor, index))
-        define_doodle(stage, f"{DOODLES}/{name}", actor, colors)
-        define_prop(stage, f"{PROPS}/{name}", actor, performance)
-    define_ground(stage, f"{SCENERY}/Ground", boxes, performance.terrain)
-    define_camera(stage, f"{SCENERY}/Camera", boxes)
-    return stage
 
 
-def _define_actor(stage: Usd.Stage, path: str, actor: Actor, index: int) -> FloatArray:
-    """Define an actor's SkelRoot and return the box it is in at each frame, ``(n, 2, 3)``."""
-    character = actor.character
-    root = define_character(stage, path, character, performer_colors(character, index))
-    root.GetPrim().SetCustomDataByKey(DEVICE_KEY, actor.device)
-    root.GetPrim().SetDisplayName(actor.device)
-    animation = define_animation(
-        stage,
-        f"{path}/{ANIMATION}",
-        character.skeleton,
-        actor.rotation_xyzw,
-        actor.translation_m,
-    )
-    bind_animation(root, animation)
-    boxes = body_boxes(character, actor.rotation_xyzw, actor.translation_m)
-    set_samples(root.CreateExtentAttr(), boxes, Vt.Vec3fArray)
-    return boxes
+def _performers(performance: Performance, neutral: Performance | None) -> list[Performer]:
+    if neutral is None:
+        return [Performer(performance, i) for i in range(len(performance.actors))]
+    told = [
+        (p.rate_hz, p.start_s, len(p), [(a.device, a.character.skeleton.joints) for a in p.actors])
+        for p in (performance, neutral)
+    ]
+    if told[0] != told[1]:
+        raise ExportError("neutral: expected a performance of the same devices, joints and frames")
+    return [Performer(performance, i, actor) for i, actor in enumerate(neutral.actors)]
 
 
-def _write_package(layer: Sdf.Layer, path: Path) -> None:
-    """Write a layer as usdz: a zip, neither compressed nor dated, whose content is aligned.
+def _names(performance: Performance) -> list[str]:
+    return unique_identifiers(actor.device for actor in performance.actors)
 
-    USD's own writer stamps each file with its date in local time, so that no two packages of
-    one performance were ever the same.
-    """
-    with tempfile.TemporaryDirectory() as folder:
-        inside = Path(folder) / "performance.usdc"
-        layer.Export(str(inside))
-        entry = zipfile.ZipInfo(inside.name, date_time=(1980, 1, 1, 0, 0, 0))
-        entry.create_system = 3  # else the package tells which system made it
-        header = 30 + len(entry.filename.encode())  # of a zip's local file header
-        padding = -(header + 4) % _ALIGNMENT
-        entry.extra = b"\x86\x19" + padding.to_bytes(2, "little") + bytes(padding)
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
-            package.writestr(entry, inside.read_bytes())
+
+def _places(name: str) -> Places:
+    return Places(f"{ACTORS}/{name}", f"{DOODLES}/{name}", f"{PROPS}/{name}")
+
+
+def _export(layer: Sdf.Layer, path: Path, temporary: Path) -> None:
+    """Write a layer to where it waits to become ``path``."""
+    try:
+        if path.suffix.lower() == ".usdz":
+            write_package(layer, temporary)
+        else:
+            layer.Export(str(temporary))
+    except Tf.ErrorException as error:
+        raise ExportError(f"{path}: cannot be written: {_first_line(error)}") from error
 
 
 def _first_line(error: Exception) -> str:

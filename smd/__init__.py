@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from actions_library.cast import Cast
     from actions_library.folder import load_library
+    from actions_library.stage_frame import StageFrame
     from exporters import write
     from smd.doodle import Doodle, Recording
     from smd.errors import SmdError
@@ -34,6 +35,7 @@ _HOME = {
     "Score": "smd.score",
     "SmdError": "smd.errors",
     "SourceFrame": "smd.formats",
+    "StageFrame": "actions_library.stage_frame",
     "animate": "smd.pipeline",
     "load_library": "actions_library.folder",
     "parse": "smd.pipeline",
@@ -55,6 +57,7 @@ __all__ = [
     "Score",
     "SmdError",
     "SourceFrame",
+    "StageFrame",
     "animate",
     "load_library",
     "parse",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import filecmp
 import os
+import shutil
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from smd.errors import ExportError
@@ -36,14 +38,59 @@ def replacing(path: Path) -> Iterator[Path]:
         ) from error
     temporary = Path(name)
     try:
-        yield temporary
-        mode = path.stat().st_mode if path.exists() else 0o666 & ~_umask()
-        temporary.chmod(mode)
-        temporary.replace(path)
-    except OSError as error:
-        raise ExportError(f"{path}: cannot be written: {error.strerror or error}") from error
+        with _blaming(path):
+            yield temporary
+            mode = path.stat().st_mode if path.exists() else 0o666 & ~_umask()
+            temporary.chmod(mode)
+            temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def write_together(writers: Mapping[Path, Callable[[Path], None]]) -> None:
+    """Write several files, all of them or none.
+
+    Parameters
+    ----------
+    writers
+        What writes each file, called with a temporary path of the same folder and suffix. The
+        files appear in this order: let what refers to others come last.
+
+    Raises
+    ------
+    ExportError
+        If any of them cannot be written; what was there before is there still.
+    """
+    with tempfile.TemporaryDirectory() as safe, ExitStack() as undone:
+        for index, path in enumerate(writers):
+            with _blaming(path):
+                if path.is_file():
+                    kept = Path(shutil.copy2(path, Path(safe) / str(index)))
+                    undone.callback(_put_back, kept, path)
+                elif not path.exists():
+                    undone.callback(path.unlink, missing_ok=True)
+        with ExitStack() as replaced:
+            # The last one entered is the first to be renamed.
+            for path, write in reversed(list(writers.items())):
+                temporary = replaced.enter_context(replacing(path))
+                with _blaming(path):
+                    write(temporary)
+        undone.pop_all()
+
+
+@contextmanager
+def _blaming(path: Path) -> Iterator[None]:
+    """Say of an OSError which file could not be written."""
+    try:
+        yield
+    except OSError as error:
+        raise ExportError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def _put_back(kept: Path, path: Path) -> None:
+    """Restore a file, unless it is untouched."""
+    if not filecmp.cmp(kept, path, shallow=False):
+        shutil.copy2(kept, path)
 
 
 def _umask() -> int:

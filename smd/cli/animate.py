@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import reading
+from smd.cli import reading, writing
+
+if TYPE_CHECKING:
+    from smd.transfer.performance import Performance
 
 
 def animate(
@@ -22,17 +25,23 @@ def animate(
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
     ground: reading.Ground = None,
+    variants: writing.Variants = False,
+    layers: writing.Layers = False,
+    phrases: writing.Phrases = False,
+    stage_up: writing.Up = writing.StageUp.Y,
+    stage_unit: writing.Unit = writing.StageUnit.M,
 ) -> None:
     """Act out a Score, perhaps corrected by hand.
 
     It is played on its recording's path and in its timing.
     """
     import smd
-    from exporters import require_known_suffix
     from smd.errors import ScoreError
     from smd.score import read_score
+    from smd.transfer.terrain import read_terrain
 
-    require_known_suffix(output)
+    written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
+    written.check(output)
     score = read_score(score_file)
     if recording is None:
         if not score.recording:
@@ -41,15 +50,19 @@ def animate(
     options = reading.ReadingOptions.from_pairs(score.reading)
     take = options.read(recording)
     cast = reading.LibraryFolders.from_options(library).over(score, score_file).load()
-    performance = smd.animate(
-        score,
-        take,
-        cast,
-        rate_hz=fps,
-        expressiveness=expressiveness,
-        heading=heading,
-        ground=ground,
-    )
-    smd.write(performance, output)
+    terrain = None if ground is None else read_terrain(ground)
+
+    def act(how_much: float) -> Performance:
+        return smd.animate(
+            score,
+            take,
+            cast,
+            rate_hz=fps,
+            expressiveness=how_much,
+            heading=heading,
+            ground=terrain,
+        )
+
+    performance = written.write(score, act, expressiveness, output)
     said = f"{output}: {reading.summary(take, score)}"
     typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))

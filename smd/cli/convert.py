@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import reading
+from smd.cli import reading, writing
 from smd.cli.batch import for_each, targets
+
+if TYPE_CHECKING:
+    from smd.transfer.performance import Performance
 
 
 def convert(
@@ -27,6 +30,11 @@ def convert(
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
     ground: reading.Ground = None,
+    variants: writing.Variants = False,
+    layers: writing.Layers = False,
+    phrases: writing.Phrases = False,
+    stage_up: writing.Up = writing.StageUp.Y,
+    stage_unit: writing.Unit = writing.StageUnit.M,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -40,14 +48,14 @@ def convert(
     A file in, a file out; a folder in, a folder out.
     """
     import smd
-    from exporters import require_known_suffix
     from smd.transfer.terrain import read_terrain
 
     files = list(reading.recording_files(recordings))
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
     outputs = targets(recordings, files, output, suffix)
+    written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
     for path in outputs:
-        require_known_suffix(path)
+        written.check(path)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     folders = reading.LibraryFolders.from_options(library)
     cast = folders.load()
@@ -58,16 +66,19 @@ def convert(
 
     def one(index: int, file: Path) -> None:
         recording, score = understood(file)
-        performance = smd.animate(
-            score,
-            recording,
-            cast,
-            rate_hz=fps,
-            expressiveness=expressiveness,
-            heading=heading,
-            ground=terrain,
-        )
-        smd.write(performance, outputs[index])
+
+        def act(how_much: float) -> Performance:
+            return smd.animate(
+                score,
+                recording,
+                cast,
+                rate_hz=fps,
+                expressiveness=how_much,
+                heading=heading,
+                ground=terrain,
+            )
+
+        performance = written.write(score, act, expressiveness, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
 

@@ -8,20 +8,41 @@ import numpy as np
 import pytest
 
 import smd
+from exporters.usd import write_usd, write_usd_layers
 from smd.character.kinematics import forward_kinematics
 
 bpy = pytest.importorskip("bpy", reason="Blender's Python module (pip install bpy) is absent")
 
 RECORDINGS = Path(__file__).parents[2] / "recordings"
+FRAMES = [smd.StageFrame(up, unit_m) for up in "yz" for unit_m in (1.0, 0.01)]
 
 
-def test_blender_puts_every_bone_where_we_put_it(tmp_path):
+@pytest.fixture(scope="module")
+def duel():
+    """The duel with its Effort, and without."""
     library = smd.load_library()
     recording = smd.read_recording(RECORDINGS / "duel.csv")
-    performance = smd.animate(smd.parse(recording, library), recording, library)
-    path = tmp_path / "duel.usda"
-    smd.write(performance, path)
+    score = smd.parse(recording, library)
+    return [smd.animate(score, recording, library, expressiveness=much) for much in (1.0, 0.0)]
 
+
+@pytest.mark.parametrize("frame", FRAMES, ids=lambda f: f"{f.up}-{f.unit_m}")
+def test_blender_puts_every_bone_where_we_put_it(duel, tmp_path, frame):
+    write_usd(duel[0], tmp_path / "duel.usda", frame=frame)
+    expect_bones(tmp_path / "duel.usda", duel[0])
+    (camera,) = bpy.data.cameras
+    assert camera.lens == pytest.approx(40.0, rel=1e-3)  # millimetres
+    assert camera.sensor_width == pytest.approx(36.0, rel=1e-3)
+
+
+def test_blender_shows_the_selected_variant_of_layers(duel, tmp_path):
+    expressive, neutral = duel
+    write_usd_layers(expressive, tmp_path / "duel.usda", neutral=neutral)
+    expect_bones(tmp_path / "duel.usda", expressive)
+
+
+def expect_bones(path: Path, performance) -> None:
+    """Check every bone at ten frames of a file, in a new scene."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(filepath=str(path))
     scene = bpy.context.scene

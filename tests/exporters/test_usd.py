@@ -18,6 +18,7 @@ from smd.errors import ExportError
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import rotate
 from smd.score import score_from_json
+from tests.exporters.skinned import skinned
 
 SUFFIXES = (".usda", ".usdc", ".usdz")
 
@@ -34,18 +35,6 @@ def stage(performance, tmp_path_factory) -> Usd.Stage:
     path = tmp_path_factory.mktemp("usd") / "take.usdc"
     write_usd(performance, path)
     return Usd.Stage.Open(str(path))
-
-
-def skinned(stage: Usd.Stage, root: str, frame: float) -> np.ndarray:
-    """Return a character's points in the world, skinned by USD."""
-    cache, prim = UsdSkel.Cache(), UsdSkel.Root(stage.GetPrimAtPath(root))
-    cache.Populate(prim, Usd.PrimDefaultPredicate)
-    (binding,) = cache.ComputeSkelBindings(prim, Usd.PrimDefaultPredicate)
-    query = cache.GetSkelQuery(binding.GetSkeleton())
-    (target,) = binding.GetSkinningTargets()
-    points = UsdGeom.Mesh(target.GetPrim()).GetPointsAttr().Get()
-    assert target.ComputeSkinnedPoints(query.ComputeSkinningTransforms(frame), points, frame)
-    return np.array(points)
 
 
 def test_no_validator_finds_anything_wrong(written):
@@ -137,7 +126,7 @@ def test_the_prop_hides_while_tracking_is_lost(stage):
 def test_the_doodle_is_one_curve_a_stretch(stage, performance):
     curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Performance/Doodles/left_hand"))
     counts = np.array(curves.GetCurveVertexCountsAttr().Get())
-    colors = np.array(curves.GetDisplayColorPrimvar().Get())
+    colors = np.array(curves.GetDisplayColorPrimvar().ComputeFlattened())
     doodle = performance.actors[0].doodles[0]
     assert len(counts) == len(colors) == 5  # idle, walk, idle, punch, idle
     assert counts.sum() == len(doodle) + 4

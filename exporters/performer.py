@@ -1,0 +1,107 @@
+"""One performer on a stage: its character, what it drew, and the prop it was drawn with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from pxr import Usd, UsdSkel, Vt
+
+from actions_library.stage_frame import StageFrame
+from actions_library.usd_skel import (
+    ANIMATION,
+    bind_animation,
+    define_animation,
+    define_character,
+    set_samples,
+)
+from exporters.bounds import body_boxes
+from exporters.palette import RGB, performer_colors
+from exporters.phrases import name_phrases
+from exporters.scenery import define_doodle, define_prop
+from smd.geometry.arrays import FloatArray
+from smd.transfer.performance import Actor, Performance
+
+DEVICE_KEY = "smd:device"
+"""In a SkelRoot's custom data."""
+
+EXPRESSION, NEUTRAL, EXPRESSIVE = "expression", "neutral", "expressive"
+"""A SkelRoot's variant set, where it has one, and its variants; the last is selected."""
+
+
+class Places(NamedTuple):
+    """Paths of a performer's prims: its SkelRoot, its doodle and its prop."""
+
+    actor: str
+    doodle: str
+    prop: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Performer:
+    """An actor of a performance.
+
+    Attributes
+    ----------
+    performance : what it plays in.
+    index : which of its actors it is.
+    neutral : the same actor without expression, where that is shown too.
+    """
+
+    performance: Performance
+    index: int
+    neutral: Actor | None = None
+
+    @property
+    def actor(self) -> Actor:
+        """What it plays."""
+        return self.performance.actors[self.index]
+
+
+def define_performer(
+    stage: Usd.Stage, places: Places, performer: Performer, action_colors: Mapping[str, RGB]
+) -> FloatArray:
+    """Define a performer and return the boxes that its body is in, ``(n, 2, 3)`` metres, Y up."""
+    actor = performer.actor
+    character = actor.character
+    colors = performer_colors(character, performer.index)
+    root = define_character(stage, places.actor, character, colors)
+    prim = root.GetPrim()
+    prim.SetCustomDataByKey(DEVICE_KEY, actor.device)
+    prim.SetDisplayName(actor.device)
+    name_phrases(prim, performer.performance, actor.part.phrases)
+    if performer.neutral is None:
+        boxes = _define_acting(root, actor)
+    else:
+        boxes = _define_variants(root, actor, performer.neutral)
+    # Its target's path, not its prim: inside a variant it is there only while that is selected.
+    bind_animation(root, UsdSkel.Animation.Get(stage, f"{places.actor}/{ANIMATION}"))
+    define_doodle(stage, places.doodle, actor, action_colors)
+    define_prop(stage, places.prop, actor, performer.performance)
+    return boxes
+
+
+def _define_variants(root: UsdSkel.Root, expressive: Actor, neutral: Actor) -> FloatArray:
+    """Define the two ways of acting as variants, and return the box of both, ``(n, 2, 3)``."""
+    variants = root.GetPrim().GetVariantSets().AddVariantSet(EXPRESSION)
+    boxes = {}
+    for name, actor in ((NEUTRAL, neutral), (EXPRESSIVE, expressive)):
+        variants.AddVariant(name)
+        variants.SetVariantSelection(name)
+        with variants.GetVariantEditContext():
+            boxes[name] = _define_acting(root, actor)
+    return np.concatenate([boxes[NEUTRAL], boxes[EXPRESSIVE]])
+
+
+def _define_acting(root: UsdSkel.Root, actor: Actor) -> FloatArray:
+    """Define how an actor moves, and return the box it is in at each frame, ``(n, 2, 3)``."""
+    stage, character = root.GetPrim().GetStage(), actor.character
+    path = f"{root.GetPath()}/{ANIMATION}"
+    poses = actor.rotation_xyzw, actor.translation_m
+    define_animation(stage, path, character.skeleton, *poses)
+    boxes = body_boxes(character, *poses)
+    extents = StageFrame.of(stage).boxes(boxes)
+    set_samples(root.CreateExtentAttr(), extents, Vt.Vec3fArray)
+    return boxes

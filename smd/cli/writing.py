@@ -1,0 +1,132 @@
+"""The options that say how an animation is written, shared by the commands that write one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from smd.score import Score
+    from smd.transfer.performance import Performance
+
+
+_USD = (".usda", ".usdc", ".usdz")
+
+
+class StageUp(StrEnum):
+    """Axis of the stage that points up."""
+
+    Y = "y"
+    Z = "z"
+
+
+class StageUnit(StrEnum):
+    """Unit of the stage."""
+
+    M = "m"
+    CM = "cm"
+
+
+Up = Annotated[
+    StageUp, typer.Option("--stage-up", help="Up axis of the animation written: y or z.")
+]
+Unit = Annotated[
+    StageUnit, typer.Option("--stage-unit", help="Unit of the animation written: m or cm.")
+]
+Layers = Annotated[
+    bool,
+    typer.Option(
+        "--layers",
+        help="Each performer in a file of its own, OUT.<device>.usdc, referenced by OUT.",
+    ),
+]
+Phrases = Annotated[
+    bool,
+    typer.Option("--phrases", help="Also write the phrases as a table, OUT.phrases.csv."),
+]
+Variants = Annotated[
+    bool,
+    typer.Option(
+        "--variants",
+        help="Also act it out without Effort: a variant set 'expression' on each character.",
+    ),
+]
+
+
+@dataclass(frozen=True, slots=True)
+class WritingOptions:
+    """How the user said that an animation is to be written."""
+
+    up: StageUp = StageUp.Y
+    unit: StageUnit = StageUnit.M
+    layers: bool = False
+    phrases: bool = False
+    variants: bool = False
+
+    def check(self, path: Path) -> None:
+        """Raise ExportError if no animation can be written so under this name."""
+        from exporters import require_known_suffix
+        from smd.errors import ExportError
+
+        require_known_suffix(path)
+        suffix = path.suffix.lower()
+        asked = [option for option, value in self._of_usd().items() if value]
+        if asked and suffix not in _USD:
+            raise ExportError(f"{path}: expected {', '.join(_USD)} with {asked[0]}, found {suffix}")
+        if self.layers and suffix == ".usdz":
+            raise ExportError(f"{path}: expected .usda or .usdc with --layers, found .usdz")
+
+    def _of_usd(self) -> dict[str, bool]:
+        """Return whether each option that USD alone has was asked for."""
+        return {
+            "--layers": self.layers,
+            "--variants": self.variants,
+            "--stage-up": self.up is not StageUp.Y,
+            "--stage-unit": self.unit is not StageUnit.M,
+        }
+
+    def write(
+        self, score: Score, act: Callable[[float], Performance], expressiveness: float, path: Path
+    ) -> Performance:
+        """Act out a Score, write it with what goes with it, all or nothing, and return it.
+
+        ``act`` acts it out with an expressiveness.
+        """
+        from exporters.phrases import write_phrase_table
+        from smd.files import write_together
+
+        performance = act(expressiveness)
+        neutral = act(0.0) if self.variants and has_effort(score) else None
+        files = self._files(performance, neutral, path)
+        if self.phrases:
+            table = path.with_name(f"{path.stem}.phrases.csv")
+            files = {table: lambda to: write_phrase_table(performance, to), **files}
+        write_together(files)
+        return performance
+
+    def _files(
+        self, performance: Performance, neutral: Performance | None, path: Path
+    ) -> dict[Path, Callable[[Path], None]]:
+        """Return what writes each file of the animation itself."""
+        import exporters
+
+        if path.suffix.lower() not in _USD:
+            return {path: lambda to: exporters.write(performance, to)}
+        from actions_library.stage_frame import StageFrame
+        from exporters.usd import usd_file, usd_layers
+
+        plan = usd_layers if self.layers else usd_file
+        frame = StageFrame.named(self.up, self.unit)
+        return plan(performance, path, neutral=neutral, frame=frame)
+
+
+def has_effort(score: Score) -> bool:
+    """Return whether a Score says anything of how its phrases are played."""
+    from exporters.phrases import effort_read
+
+    return any(effort_read(phrase.effort) for part in score.performers for phrase in part.phrases)

@@ -1,0 +1,37 @@
+from __future__ import annotations
+
+import csv
+
+import pytest
+from pxr import Usd
+
+from exporters.phrases import PHRASES_KEY, write_phrase_table
+from exporters.usd import write_usd
+
+
+def test_each_character_names_its_phrases_in_seconds_and_time_codes(performance, tmp_path):
+    write_usd(performance, tmp_path / "a.usda")
+    stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
+    named = stage.GetPrimAtPath("/Performance/Actors/left_hand").GetCustomDataByKey(PHRASES_KEY)
+    assert list(named) == ["p0000", "p0001"]
+    walk, punch = named["p0000"], named["p0001"]
+    assert walk["action"] == "walk"
+    # The recording begins at 10 s, at 24 frames a second.
+    assert (walk["start_s"], walk["end_s"]) == pytest.approx((10.2, 10.9))
+    assert (walk["start"], walk["end"]) == pytest.approx((4.8, 21.6))
+    assert walk["effort"] == {"time": 0.5, "weight": -0.25}
+    assert punch["confidence"] == 0.75
+
+
+def test_the_table_has_a_row_a_phrase(performance, tmp_path):
+    write_phrase_table(performance, tmp_path / "a.csv")
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["device"], row["action"]) for row in rows] == [
+        ("left hand", "walk"),
+        ("left hand", "punch"),
+        ("right-hand", "walk"),
+        ("right-hand", "punch"),
+    ]
+    assert (rows[0]["start_frame"], rows[0]["end_frame"]) == ("5", "22")
+    assert (rows[0]["time"], rows[0]["weight"], rows[0]["space"]) == ("0.500", "-0.250", "")
