@@ -11,11 +11,12 @@ import numpy as np
 from actions_library.cast import cast_of
 from actions_library.library import Library
 from smd.character.clip import Clip
-from smd.character.kinematics import joints_in_world
+from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.skeleton import Skeleton
-from smd.doodle import Recording
+from smd.doodle import Doodle, Recording
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
+from smd.smoothing import smooth
 from smd.transfer.acting import acted_contacts, own_poses, rows_of
 from smd.transfer.legs import feet_of, legs_of
 from smd.transfer.move import Move
@@ -172,14 +173,14 @@ def path_errors_m(seen: Played) -> FloatArray:
     for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
         if move is None or not move.piece.travels:
             continue
-        rows = (seen.time_s >= phrase.start_s) & (seen.time_s <= phrase.end_s)
-        if not rows.any():
-            continue
+        start_s = move.start_s  # of a gait perhaps earlier than the phrase's
+        rows = (seen.time_s >= start_s) & (seen.time_s <= phrase.end_s)
+        # The character goes on from where it stood: the path is put there.
+        wanted = seen.path.at(np.arange(start_s, phrase.end_s, 1e-3))
+        wanted += move.root_m[0] - seen.path.at(start_s)
         root = seen.actor.translation_m[rows][:, 0, [0, 2]]
-        # The character goes on from where it stood: both begin at the origin.
-        wanted = seen.path.at(np.arange(phrase.start_s, phrase.end_s, 1e-3))
-        gaps = (root - root[:1])[:, None] - (wanted - seen.path.at(seen.time_s[rows][0]))[None]
-        errors.append(np.linalg.norm(gaps, axis=-1).min(axis=1))
+        gaps = np.linalg.norm(root[:, None] - wanted[None], axis=-1)
+        errors.append(gaps.min(axis=1, initial=np.inf))
     return np.concatenate(errors)
 
 
@@ -210,6 +211,45 @@ def boundary_gaps_s(seen: Played) -> tuple[FloatArray, FloatArray]:
         else:
             ends.append(abs(move.end_s - phrase.end_s))
     return np.array(begins), np.array(ends)
+
+
+def lateness_s(seen: Played, doodles: Sequence[Doodle]) -> FloatArray:
+    """Return how much later than the prop a body is halfway through what is played once.
+
+    Halfway along the joints' way, as seen from the ground root, from the phrase's start until the
+    body has come back; the prop's, of place and of turning (a radian counting as 5 cm).
+    """
+    late = []
+    skeleton = seen.actor.character.skeleton
+    for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
+        if move is None or move.piece.clip.cyclic or move.start_s != phrase.start_s:
+            continue
+        rows = (seen.time_s >= phrase.start_s) & (seen.time_s <= move.end_s)
+        place = forward_kinematics(skeleton, *(part[rows] for part in seen.poses))[1]
+        steps = np.linalg.norm(np.diff(place - place[:, :1], axis=0), axis=-1).mean(axis=-1)
+        drawn = drawn_between(doodles, phrase.start_s, phrase.end_s)
+        if drawn is not None and len(steps) > 1:
+            late.append(_halfway_s(seen.time_s[rows][1:], steps) - _halfway_s(*drawn))
+    return np.array(late)
+
+
+def drawn_between(
+    doodles: Sequence[Doodle], start_s: float, end_s: float
+) -> tuple[FloatArray, FloatArray] | None:
+    """Return times in a phrase, and how fast the prop goes and turns there; None if it is lost."""
+    for doodle in doodles:
+        if doodle.time_s[0] <= start_s and end_s <= doodle.time_s[-1]:
+            motion = smooth(doodle)
+            inside = (motion.time_s >= start_s) & (motion.time_s <= end_s)
+            speed = np.linalg.norm(motion.velocity_m_s, axis=-1)
+            turning = np.linalg.norm(motion.angular_velocity_rad_s, axis=-1)
+            return motion.time_s[inside], (speed + 0.05 * turning)[inside]
+    return None
+
+
+def _halfway_s(time_s: FloatArray, steps: FloatArray) -> float:
+    way = np.cumsum(steps)
+    return float(np.interp(0.5 * way[-1], way, time_s))
 
 
 def turns_deg(rotation_xyzw: FloatArray) -> FloatArray:

@@ -15,7 +15,8 @@ played as fast, over their own ground: a clip that is played twice as fast has t
 ``begin`` and ``done``: the latest that a clip begins, or has shown what it is about, beside the
 Score, in frames (1); a gait that walks through a gap below 0.3 s begins there.
 ``pops``: turns of a joint in a frame that exceed the clip's own by more than 8 degrees, per
-million, and the largest excess. ``bound``: share of accelerations across boundaries above the
+million, and the largest excess. ``halfway``: when a body that plays a clip once is halfway through
+its way, beside the prop. ``bound``: share of accelerations across boundaries above the
 99.5th percentile of the same joint inside phrases (0.5 % if boundaries are like anything else).
 """
 
@@ -127,7 +128,7 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
     """Act out some Scores and print their line, and that of the clips they play."""
     feet, toes, errors, begins, dones = [], [], [], [], []
     popped, turns, worst = 0, 0, 0.0
-    inside, across, phrases, seconds = [], [], 0, 0.0
+    inside, across, late, phrases, seconds = [], [], [], 0, 0.0
     for recording, score in casts:
         performance = animate(score, recording, library, rate_hz=RATE_HZ)
         for seen in quality.played(performance, recording, library):
@@ -137,6 +138,7 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
             )
             toes.append(quality.toes_of_clips_m_s(seen))
             errors.append(quality.path_errors_m(seen))
+            late.append(quality.lateness_s(seen, recording.of(seen.actor.device)))
             begin, done = quality.boundary_gaps_s(seen)
             begins.append(begin)
             dones.append(done)
@@ -161,7 +163,12 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
     )
     print(row(name, feet, more))
     print(f"{'  their clips, as fast':42s} {toes_of(np.concatenate(toes))}")
-    print(f"  {phrases} phrases, {seconds:.0f} s; begun a frame early: {np.mean(begin > 1.0):.1%}")
+    print(
+        f"  {phrases} phrases, {seconds:.0f} s; begun a frame early: {np.mean(begin > 1.0):.1%}; "
+        "halfway later than the prop: 10th, 50th, 90th percentile "
+        + ", ".join(f"{x:+.2f}" for x in np.quantile(np.concatenate(late), [0.1, 0.5, 0.9]))
+        + " s"
+    )
 
 
 def seconds_of(work: object, repeats: int = 5) -> list[float]:
