@@ -67,7 +67,9 @@ def minima(speed: FloatArray) -> IntArray:
 def found(motion: Motion) -> IntArray:
     """Return the ends of our rule."""
     clip = motion.clip
-    return stages.stage_end_frames(motion.position_m, clip.rate_hz, cyclic=clip.cyclic)
+    return stages.stage_end_frames(
+        motion.position_m, clip.rate_hz, cyclic=clip.cyclic, touches=clip.contacts
+    )
 
 
 def of_the_paper(motion: Motion, slow: float) -> IntArray:

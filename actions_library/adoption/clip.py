@@ -340,7 +340,9 @@ def _labelled(
         rate_hz=rate_hz,
         rotation_xyzw=rotation,
         translation_m=translation,
-        stage_end_frames=stage_end_frames(place - place[:, :1], rate_hz, cyclic=ground.cyclic),
+        stage_end_frames=stage_end_frames(
+            place - place[:, :1], rate_hz, cyclic=ground.cyclic, touches=touching
+        ),
         contact_joints=tuple(skeleton.joints[feet[i]] for i in kept),
         contacts=touching[:, kept],
         cyclic=ground.cyclic,

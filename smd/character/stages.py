@@ -5,7 +5,8 @@ vanish; bodies that arrive part by part have none. We look along the direction i
 moves most: its turning points are the extreme poses, and there the speed vanishes by definition.
 The first lively sweep between two of them is the execution; a sweep before it goes the other way
 and is the anticipation, as in the paper's rule for two extreme poses. The execution ends where
-most of its speed is gone, the follow-through where the sweep turns.
+most of its speed is gone, the follow-through where the sweep turns. What flies has not been
+executed until it has landed.
 
 References
 ----------
@@ -19,7 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 
 SMOOTHING_S = 0.02
 """Standard deviation of the softening of the way along the main direction."""
@@ -35,7 +36,9 @@ ARRIVED, DEPARTED = 0.3, 0.1
 where nothing went before it."""
 
 
-def stage_end_frames(position_m: ArrayLike, rate_hz: float, *, cyclic: bool) -> IntArray:
+def stage_end_frames(
+    position_m: ArrayLike, rate_hz: float, *, cyclic: bool, touches: BoolArray
+) -> IntArray:
     """Return the last frame of each of the five stages, ``(5,)``.
 
     Parameters
@@ -46,6 +49,8 @@ def stage_end_frames(position_m: ArrayLike, rate_hz: float, *, cyclic: bool) -> 
         Frames per second.
     cyclic
         A cycle is all execution.
+    touches
+        ``(n, c)`` when each of the joints that touch the ground does; none is no flight.
     """
     position = np.asarray(position_m, dtype=np.float64)
     last = len(position) - 1
@@ -65,7 +70,21 @@ def stage_end_frames(position_m: ArrayLike, rate_hz: float, *, cyclic: bool) -> 
         moving = np.flatnonzero(speed[: top + 1] > DEPARTED * speed[top])
         begins = int(moving[0])
     prepared = sweeps[main - 1][0] if main > 0 else 0
+    landed = landing_frame(touches, ends)
+    if ends < landed:
+        ends = landed
+        turned = next((turn for turn in turns if turn >= ends), last)
     return np.array([prepared, begins, ends, turned, last])
+
+
+def landing_frame(touches: BoolArray, frame: int) -> int:
+    """Return where the last flight that begins before a frame ends; 0 if none does.
+
+    Who begins or ends in the air has not jumped.
+    """
+    grounded = np.flatnonzero(touches.any(axis=1))
+    flies = np.flatnonzero((np.diff(grounded) > 1) & (grounded[:-1] < frame))
+    return int(grounded[flies[-1] + 1]) if len(flies) else 0
 
 
 def way_along_main_direction(position_m: FloatArray, rate_hz: float) -> FloatArray:
