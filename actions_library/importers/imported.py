@@ -88,6 +88,9 @@ class Imported:
     def animation(self, name: str | None) -> Animation:
         """Return the animation of a name, or the only one.
 
+        Blender writes an action ``Walk`` of a rig as ``Rig|Walk``; either name will do, where only
+        one rig has it.
+
         Raises
         ------
         ImportedFileError
@@ -95,6 +98,9 @@ class Imported:
         """
         named = [a for a in self.animations if name in (None, a.name)]
         if len(named) == 1 or (named and name is not None):
+            return named[0]
+        named = [a for a in self.animations if name == a.name.rpartition("|")[2]]
+        if len(named) == 1:
             return named[0]
         known = ", ".join(a.name for a in self.animations) or "no animation"
         raise fault(self.path, "clip", f"one of {known}", "none given" if name is None else name)

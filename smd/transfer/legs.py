@@ -9,10 +9,10 @@ import numpy as np
 
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
-from smd.character.kinematics import forward_kinematics
+from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import inverse, multiply, normalized, rotate
+from smd.geometry.rotations import inverse, normalized, rotate
 
 HEEL_BEHIND_ANKLE = 0.37
 """How far the heel is behind the ankle, as a share of the ball's distance ahead of it."""
@@ -111,14 +111,8 @@ def world_of(
     skeleton: Skeleton, joint: int, rotation_xyzw: FloatArray, translation_m: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return one joint's rotation ``(n, 4)`` and position ``(n, 3)`` in the world."""
-    chain = [joint]
-    while skeleton.parents[chain[-1]] >= 0:
-        chain.append(int(skeleton.parents[chain[-1]]))
-    q, p = rotation_xyzw[:, chain[-1]], translation_m[:, chain[-1]]
-    for link in reversed(chain[:-1]):
-        p = p + rotate(q, translation_m[:, link])
-        q = multiply(q, rotation_xyzw[:, link])
-    return q, p
+    q, p = joints_in_world(skeleton, [joint], rotation_xyzw, translation_m)
+    return q[:, 0], p[:, 0]
 
 
 def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
