@@ -225,11 +225,14 @@ def understanding(
 SCORE_SUFFIX = ".score.json"
 """Of the Scores that stand beside their recordings."""
 
+PHRASES_SUFFIX = ".phrases.csv"
+"""Of the tables of phrases that stand beside animations, often in the recordings' folder."""
+
 
 def recording_files(paths: Iterable[Path]) -> Iterator[Path]:
     """Yield files as they are and the recordings inside folders, sorted by name.
 
-    Scores that stand beside their recordings are passed over.
+    Scores and tables of phrases that stand beside their recordings are passed over.
 
     Raises
     ------
@@ -247,7 +250,7 @@ def recording_files(paths: Iterable[Path]) -> Iterator[Path]:
             file
             for file in path.iterdir()
             if file.suffix.lower() in SUFFIXES
-            and not file.name.endswith(SCORE_SUFFIX)
+            and not file.name.endswith((SCORE_SUFFIX, PHRASES_SUFFIX))
             and file.is_file()
         )
         if not inside:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from smd.cli.reading import PHRASES_SUFFIX
+
 if TYPE_CHECKING:
     from smd.score import Score
     from smd.transfer.performance import Performance
@@ -104,7 +106,7 @@ class WritingOptions:
         neutral = act(0.0) if self.variants and has_effort(score) else None
         files = self._files(performance, neutral, path)
         if self.phrases:
-            table = path.with_name(f"{path.stem}.phrases.csv")
+            table = path.with_name(f"{path.stem}{PHRASES_SUFFIX}")
             files = {table: lambda to: write_phrase_table(performance, to), **files}
         write_together(files)
         return performance

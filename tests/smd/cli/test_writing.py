@@ -9,6 +9,7 @@ from pxr import Usd, UsdGeom
 
 import exporters
 from laban import Effort
+from smd.cli.reading import recording_files
 from smd.score import read_score, write_score
 from tests.smd.cli.test_bad_input import expect_one_line
 
@@ -47,6 +48,12 @@ def test_every_option_together(animate, tmp_path):
     assert actor.GetVariantSets().GetVariantSelection("expression") == "expressive"
     assert (tmp_path / f"out.{actor.GetName()}.usdc").is_file()
     assert len((tmp_path / "out.phrases.csv").read_text().splitlines()) == 2
+
+
+def test_a_table_of_phrases_in_the_recordings_folder_is_no_recording(tmp_path):
+    for name in ("take.csv", "take.phrases.csv", "take.score.json"):
+        (tmp_path / name).touch()
+    assert list(recording_files([tmp_path])) == [tmp_path / "take.csv"]
 
 
 def test_without_effort_there_is_nothing_to_vary(animate, tmp_path):
