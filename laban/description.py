@@ -12,9 +12,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from laban.features import FEATURES, MIN_SAMPLES, Feature, effort_features
+from laban.features import FEATURES, MIN_SAMPLES, Feature, features_in_steps
 from laban.motion import FloatArray, RigidMotion
-from laban.qualities import QUALITIES, movement_qualities
+from laban.qualities import QUALITIES, qualities_in_steps
+from laban.steps import Steps, finished
 from laban.stillness import without_still_ends
 
 FLOORS: Mapping[str, float] = MappingProxyType(
@@ -38,7 +39,7 @@ LOGARITHMS: tuple[Feature, ...] = tuple(
 )
 
 DESCRIPTION: tuple[Feature, ...] = (*FEATURES, *LOGARITHMS, *QUALITIES)
-"""The 129 entries of a description, in order."""
+"""The 132 entries of a description, in order."""
 
 DESCRIPTION_NAMES: tuple[str, ...] = tuple(feature.name for feature in DESCRIPTION)
 
@@ -46,6 +47,8 @@ _NOISE_DECIDES = (
     "jerk",
     "torsion",
     "equi_affine",
+    "curvature",
+    "submovement",
     *(f"angular_{axis}_acceleration" for axis in ("left", "up", "front")),
 )
 
@@ -54,8 +57,8 @@ FAMILIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "vigour": (
             "log_rms_speed",
             "log_peak_speed",
+            "log_rms_acceleration",
             "log_peak_acceleration",
-            "log_euclidean_acceleration_mean",
             "log_duration",
             "log_speed_over_extent",
             "log_acceleration_over_extent",
@@ -94,8 +97,21 @@ FAMILIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         ),
     }
 )
-"""Entries that belong together, smallest ideas first: few takes can only choose among few.
-*Everything* is all but what a tracker's noise decides."""
+"""Entries that belong together: few takes can only weigh few. *Everything* is all but what a
+tracker's noise decides."""
+
+MULTIPLIED: tuple[str, ...] = (
+    *(
+        name
+        for name in FAMILIES["everything"]
+        if any(name in names for family, names in FAMILIES.items() if family != "everything")
+    ),
+    "log_peak_over_mean_speed",
+    "log_acceleration_variation",
+    "log_arrival",
+)
+"""Entries whose products, two at a time, are looked at where there are takes enough: how much speed
+is sudden depends on how far the movement goes."""
 
 _FLOOR = np.array([FLOORS[feature.unit] for feature in FEATURES])
 
@@ -110,15 +126,22 @@ def describe(motion: RigidMotion) -> FloatArray:
 
     Returns
     -------
-    (129,) finite, in the order of `DESCRIPTION`.
+    (132,) finite, in the order of `DESCRIPTION`.
 
     Raises
     ------
     LabanError
         If there are fewer samples.
     """
+    return finished(described_in_steps(motion))
+
+
+def described_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
+    """Do what `describe` does, in steps."""
     moving = without_still_ends(motion)
     if len(moving) < MIN_SAMPLES:
         moving = motion
-    features = effort_features(moving)
-    return np.concatenate([features, np.log(features + _FLOOR), movement_qualities(moving)])
+    yield
+    features = yield from features_in_steps(moving)
+    qualities = yield from qualities_in_steps(moving)
+    return np.concatenate([features, np.log(features + _FLOOR), qualities])

@@ -28,6 +28,7 @@ import numpy as np
 
 from laban.effort import LabanError
 from laban.motion import FloatArray, RigidMotion
+from laban.steps import Steps, finished
 
 MIN_SAMPLES = 4
 """Fewer samples than this have no standard deviation worth the name."""
@@ -131,12 +132,19 @@ def effort_features(motion: RigidMotion) -> FloatArray:
     LabanError
         If there are fewer samples.
     """
+    return finished(features_in_steps(motion))
+
+
+def features_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
+    """Do what `effort_features` does, in steps."""
     if len(motion) < MIN_SAMPLES:
         raise LabanError(f"movement: expected at least {MIN_SAMPLES} samples, got {len(motion)}")
     local = np.abs(np.concatenate([_in_moving_frame(motion), _angular(motion)]))
-    path = _path_signals(motion)
-    statistics = [_mean_and_sd(signal) for signal in path]
     everywhere = np.stack([local.mean(axis=1), local.std(axis=1)], axis=1)
+    yield
+    path = _path_signals(motion)
+    yield
+    statistics = [_mean_and_sd(signal) for signal in path]
     return np.concatenate([everywhere.ravel(), np.ravel(statistics)])
 
 
@@ -180,7 +188,7 @@ def _path_signals(motion: RigidMotion) -> list[FloatArray]:
 
     moving = speed > max(SLOW_SHARE * np.sqrt(np.mean(speed**2)), SLOW_M_S)
     curvature = bending[moving] / speed[moving] ** 3
-    step_s = (motion.time_s[-1] - motion.time_s[0]) / (len(motion) - 1)
+    step_s = motion.step_s
     path_m = float(np.sum(speed)) * step_s
     curved = curvature * path_m > STRAIGHT_TURN_RAD
     torsion = triple[moving][curved] / bending[moving][curved] ** 2

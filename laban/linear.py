@@ -1,6 +1,7 @@
-"""Linear classifiers: logistic regression of standardized features, for two classes or several.
+"""Linear classifiers of standardized features, for two classes or several.
 
-Fitting is scikit-learn's; what comes out is a few numbers that NumPy alone can use.
+Fitting logistic regression is scikit-learn's; what comes out is a few numbers that NumPy alone can
+use.
 """
 
 from __future__ import annotations
@@ -12,9 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from laban.motion import FloatArray
-
-RIDGE = 1.0
-"""Strength of the prior on the weights of standardized features (scikit-learn's C, inverted)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +32,16 @@ class Linear:
         """Return the log odds of the high class, of features ``(…, m)``."""
         return np.asarray(features @ self.weight + self.bias)
 
+    def times(self, factor: float) -> Linear:
+        """Return the classifier whose log odds are so many times these."""
+        return Linear(factor * self.weight, factor * self.bias)
+
+    def among(self, columns: NDArray[np.int64], count: int) -> Linear:
+        """Return the same classifier where its features are some of ``count``."""
+        weight = np.zeros(count)
+        weight[columns] = self.weight
+        return Linear(weight, self.bias)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Softmax:
@@ -48,31 +56,53 @@ class Softmax:
     weight: FloatArray
     bias: FloatArray
 
+    def scores(self, features: FloatArray) -> FloatArray:
+        """Return the logarithm of each class's chance but for a common term, ``(…, k)``."""
+        return np.asarray(features @ self.weight.T + self.bias)
+
     def chances(self, features: FloatArray) -> FloatArray:
         """Return the chance of each class, ``(…, k)``, of features ``(…, m)``."""
-        score = features @ self.weight.T + self.bias
+        score = self.scores(features)
         share = np.exp(score - score.max(axis=-1, keepdims=True))
         return np.asarray(share / share.sum(axis=-1, keepdims=True))
 
 
-def fit_linear(features: FloatArray, high: NDArray[np.bool_]) -> Linear:
-    """Fit logistic regression with a ridge prior to ``(n, m)`` features; both classes occur."""
-    fitted, scale = _fitted(features, high.astype(np.int64), "newton-cholesky")
+def fit_linear(features: FloatArray, high: NDArray[np.bool_], ridge: float = 1.0) -> Linear:
+    """Fit logistic regression to ``(n, m)`` features; both classes occur.
+
+    ``ridge`` is the strength of the prior on the weights of the standardized features.
+    """
+    solver = "newton-cholesky" if len(features) > features.shape[1] else "lbfgs"
+    fitted, scale = _fitted(features, high.astype(np.int64), solver, ridge)
     weight = fitted.coef_[0] / scale
     return Linear(weight, float(fitted.intercept_[0] - weight @ features.mean(axis=0)))
 
 
-def fit_softmax(features: FloatArray, labels: NDArray[np.int64]) -> Softmax:
+def fit_softmax(features: FloatArray, labels: NDArray[np.int64], ridge: float = 1.0) -> Softmax:
     """Fit multinomial logistic regression to classes 0 … k - 1, at least 3, all of which occur."""
-    fitted, scale = _fitted(features, labels, "lbfgs")
+    fitted, scale = _fitted(features, labels, "lbfgs", ridge)
     weight = fitted.coef_ / scale
     return Softmax(weight, fitted.intercept_ - weight @ features.mean(axis=0))
 
 
-def _fitted(features: FloatArray, labels: NDArray[np.int64], solver: str) -> tuple[Any, FloatArray]:
+def fit_shared_variance(features: FloatArray, high: NDArray[np.bool_]) -> Linear:
+    """Fit Gaussian naive Bayes whose classes share their variances: a weighted sum too.
+
+    It is the mean of what the features say, not the sum, which would count what they say together
+    as many times. Neither class is taken to be more frequent.
+    """
+    low_mean, high_mean = features[~high].mean(axis=0), features[high].mean(axis=0)
+    within = features - np.where(high[:, None], high_mean, low_mean)
+    weight = (high_mean - low_mean) / (np.mean(within**2, axis=0) + 1e-9) / features.shape[1]
+    return Linear(weight, float(-0.5 * weight @ (low_mean + high_mean)))
+
+
+def _fitted(
+    features: FloatArray, labels: NDArray[np.int64], solver: str, ridge: float
+) -> tuple[Any, FloatArray]:
     """Return scikit-learn's fit of standardized features, and what they were divided by."""
     from sklearn.linear_model import LogisticRegression
 
     scale = features.std(axis=0) + 1e-9
-    model = LogisticRegression(C=1.0 / RIDGE, solver=solver, tol=1e-8, max_iter=2000)
+    model = LogisticRegression(C=1.0 / ridge, solver=solver, tol=1e-8, max_iter=2000)
     return model.fit((features - features.mean(axis=0)) / scale, labels), scale

@@ -12,11 +12,12 @@ from types import MappingProxyType
 
 import numpy as np
 
-from laban.description import describe
+from laban.description import described_in_steps
 from laban.effort import AXES, Effort, LabanError
 from laban.motion import FloatArray, RigidMotion
 from laban.own import OwnMeasure
-from laban.reader import Reader, StateReader
+from laban.reader import Reader
+from laban.steps import Steps, finished
 from laban.stillness import is_readable
 
 POLES: Mapping[str, tuple[str, str]] = MappingProxyType(
@@ -36,47 +37,18 @@ STATES = ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0))
 """The joint states of Time and Weight that a model tells as one decision."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class AxisModel:
-    """How one axis is read.
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """What an axis was learned from.
 
     Attributes
     ----------
-    alone : where nothing else is known of the performer.
-    own : where takes of the performer are known; None if the model has no such reader.
     examples : takes of the low pole, neither and the high pole.
     performers : how many people they come from.
     """
 
-    alone: Reader
-    own: Reader | None
     examples: tuple[int, int, int]
     performers: int
-
-    def value(self, description: FloatArray, own: OwnMeasure | None = None) -> float:
-        """Return the reading of a description ``(129,)``, in [-1, 1]."""
-        if own is not None and self.own is not None:
-            return self.own.value(description, own)
-        return self.alone.value(description)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class JointModel:
-    """How the `STATES` of Time and Weight are read, as one decision.
-
-    Attributes
-    ----------
-    alone, own : as in `AxisModel`.
-    """
-
-    alone: StateReader
-    own: StateReader
-
-    def chances(self, description: FloatArray, own: OwnMeasure | None = None) -> FloatArray:
-        """Return the chance of each state ``(4,)``."""
-        if own is not None:
-            return self.own.chances(description, own)
-        return self.alone.chances(description)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,21 +58,27 @@ class EffortModel:
     Attributes
     ----------
     axes : by name, those of `laban.AXES` that were trained; at least one.
+    alone : where nothing else is known of the performer.
+    own : where takes of the performer are known.
     trained_on : what the examples were, for people.
     seed : of the examples, where they were simulated.
-    joint : of Time and Weight together; None where too few takes had a pole on both.
     """
 
-    axes: Mapping[str, AxisModel]
+    axes: Mapping[str, Taught]
+    alone: Reader
+    own: Reader
     trained_on: str
     seed: int | None = None
-    joint: JointModel | None = None
 
     def __post_init__(self) -> None:
         if not self.axes or any(axis not in AXES for axis in self.axes):
             raise LabanError(f"axes: expected some of {', '.join(AXES)}, got {list(self.axes)}")
         in_order = {axis: self.axes[axis] for axis in AXES if axis in self.axes}
         object.__setattr__(self, "axes", MappingProxyType(in_order))
+
+    def reader(self, own: OwnMeasure | None) -> Reader:
+        """Return the reader for somebody whose own takes are known, or are not."""
+        return self.alone if own is None else self.own
 
 
 def read_effort(motion: RigidMotion, model: EffortModel, own: OwnMeasure | None = None) -> Effort:
@@ -118,14 +96,23 @@ def read_effort(motion: RigidMotion, model: EffortModel, own: OwnMeasure | None 
     own
         How the performer moves anyway, from a few takes (`laban.own.own_measure`).
     """
+    return finished(read_in_steps(motion, model, own))
+
+
+def read_in_steps(
+    motion: RigidMotion, model: EffortModel, own: OwnMeasure | None = None
+) -> Steps[Effort]:
+    """Do what `read_effort` does, in steps."""
     if not is_readable(motion):
         return Effort()
-    return effort_of(describe(motion), model, own)
+    description = yield from described_in_steps(motion)
+    yield
+    return effort_of(description, model, own)
 
 
 def effort_of(description: FloatArray, model: EffortModel, own: OwnMeasure | None = None) -> Effort:
-    """Return the Effort of a description ``(129,)``."""
-    return Effort(**{axis: part.value(description, own) for axis, part in model.axes.items()})
+    """Return the Effort of a description ``(132,)``."""
+    return model.reader(own).effort(description, own)
 
 
 def read_state(
@@ -135,16 +122,18 @@ def read_state(
 
     None where the model does not know joint states, or there is nothing to read.
     """
-    return state_of(describe(motion), model, own) if is_readable(motion) else None
+    if not is_readable(motion):
+        return None
+    return state_of(finished(described_in_steps(motion)), model, own)
 
 
 def state_of(
     description: FloatArray, model: EffortModel, own: OwnMeasure | None = None
 ) -> tuple[str, str, float] | None:
-    """Return the joint state of a description ``(129,)``; None where the model knows none."""
-    if model.joint is None:
+    """Return the joint state of a description ``(132,)``; None where the model knows none."""
+    chances = model.reader(own).chances(description, own)
+    if chances is None:
         return None
-    chances = model.joint.chances(description, own)
     best = int(np.argmax(chances))
     time, weight = STATES[best]
     return POLES["time"][int(time > 0)], POLES["weight"][int(weight > 0)], float(chances[best])

@@ -1,29 +1,28 @@
 """The file of an `EffortModel`: JSON that a person can read, one entry a line.
 
-Version 2 has two readers an axis and joint states; version 1, whose only reader is the paper's,
-is upgraded when it is read. A file says which entries of a description it uses by name, and one
-that this version does not know is refused.
+It has two readers, each a list of entries of a description and of products of them, with what
+they weigh on each axis. A file says which entries it uses by name, and one that this version does
+not know is refused.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from laban.calibration import Calibration
-from laban.classifier import NaiveBayes
 from laban.description import DESCRIPTION_NAMES
 from laban.effort import AXES, LabanError
 from laban.linear import Linear, Softmax
-from laban.model import NEUTRAL, POLES, STATES, AxisModel, EffortModel, JointModel
-from laban.reader import Entries, Reader, StateReader
+from laban.model import NEUTRAL, POLES, STATES, EffortModel, Taught
+from laban.reader import AxisReader, Entries, Reader, StateReader
 from laban.record import Record
 
 SCHEMA = "laban.effort_model"
-VERSION = 2
+VERSION = 3
 
 
 def load_effort_model(path: Path | str | None = None) -> EffortModel:
@@ -59,8 +58,9 @@ def effort_model_to_json(model: EffortModel) -> str:
         "version": VERSION,
         "trained_on": model.trained_on,
         "seed": model.seed,
-        "axes": {axis: _axis_record(axis, part) for axis, part in model.axes.items()},
-        "joint": model.joint and _joint_record(model.joint),
+        "axes": {axis: _taught_record(axis, taught) for axis, taught in model.axes.items()},
+        "alone": _reader_record(model.alone),
+        "own": _reader_record(model.own),
     }
     return _text(document) + "\n"
 
@@ -75,91 +75,75 @@ def effort_model_from_json(text: str, *, source: str) -> EffortModel:
     schema, version = record.get("schema", str), record.get("version", int)
     if schema != SCHEMA:
         raise LabanError(f"{source}: schema: expected {SCHEMA!r}, got {schema!r}")
-    if version not in (1, VERSION):
-        newer = ", a newer version's" if version > VERSION else ""
-        raise LabanError(f"{source}: version: expected 1 to {VERSION}, got {version}{newer}")
+    if version != VERSION:
+        whose = "a newer version's" if version > VERSION else "an older version's; train it again"
+        raise LabanError(f"{source}: version: expected {VERSION}, got {version}, {whose}")
     axes = Record(record.get("axes", dict), source, "axes")
     for name in axes.content:
         if name not in AXES:
             raise LabanError(f"{source}: axes: expected some of {', '.join(AXES)}, got {name!r}")
     if not axes.content:
         raise LabanError(f"{source}: axes: expected at least one, got none")
-    entries = {name: axes.get(name, dict) for name in axes.content}
-    if version == 1:
-        entries = {name: _upgraded(entry) for name, entry in entries.items()}
-    joint = record.content.get("joint")
+    names = [axis for axis in AXES if axis in axes.content]
     return EffortModel(
-        axes={name: _axis_from(entry, source, name) for name, entry in entries.items()},
+        axes={axis: _taught_from(axes.get(axis, dict), source, axis) for axis in names},
+        alone=_reader_from(Record(record.get("alone", dict), source, "alone"), names, own=False),
+        own=_reader_from(Record(record.get("own", dict), source, "own"), names, own=True),
         trained_on=record.get("trained_on", str),
         seed=record.get("seed", int | None),
-        joint=_joint_from(joint, source) if joint is not None else None,
     )
 
 
-def _upgraded(axis: dict[str, Any]) -> dict[str, Any]:
-    """Return an axis of version 1 as version 2 has it."""
-    kept: dict[str, Any] = {key: axis[key] for key in ("examples", "performers") if key in axis}
-    reader = {key: value for key, value in axis.items() if key not in kept}
-    return {**kept, "alone": {"family": "naive Bayes", **reader}, "own": None}
-
-
-def _axis_record(axis: str, part: AxisModel) -> dict[str, Any]:
+def _taught_record(axis: str, taught: Taught) -> dict[str, Any]:
     low, high = POLES[axis]
     return {
-        "examples": dict(zip((low, NEUTRAL, high), part.examples, strict=True)),
-        "performers": part.performers,
-        "alone": _reader_record(part.alone),
-        "own": part.own and _reader_record(part.own),
+        "examples": dict(zip((low, NEUTRAL, high), taught.examples, strict=True)),
+        "performers": taught.performers,
     }
 
 
 def _reader_record(reader: Reader) -> dict[str, Any]:
-    classifier = reader.classifier
-    features = _entry_records(reader.entries)
-    head: dict[str, Any] = {
-        "family": reader.family,
-        "held_out_accuracy": reader.held_out_accuracy,
-        "calibration": np.stack(
-            [reader.calibration.log_odds, reader.calibration.reading], 1
-        ).tolist(),
+    entries, states = reader.entries, reader.states
+    weights: dict[str, list[Any]] = {
+        axis: part.classifier.weight.tolist() for axis, part in reader.axes.items()
     }
-    if isinstance(classifier, NaiveBayes):
-        head["prior_high"] = classifier.prior_high
-        for i, feature in enumerate(features):
-            feature["mean"] = classifier.mean[:, i].tolist()
-            feature["variance"] = classifier.variance[:, i].tolist()
-    else:
-        head["bias"] = classifier.bias
-        for feature, weight in zip(features, classifier.weight.tolist(), strict=True):
-            feature["weight"] = weight
-    return {**head, "features": features}
-
-
-def _joint_record(joint: JointModel) -> dict[str, Any]:
-    record: dict[str, Any] = {"states": [_state_name(state) for state in STATES]}
-    for name, reader in (("alone", joint.alone), ("own", joint.own)):
-        features = _entry_records(reader.entries)
-        for feature, weights in zip(features, reader.classifier.weight.T.tolist(), strict=True):
-            feature["weights"] = weights
-        record[name] = {
-            "held_out_accuracy": reader.held_out_accuracy,
-            "bias": reader.classifier.bias.tolist(),
-            "features": features,
-        }
-    return record
-
-
-def _entry_records(entries: Entries) -> list[dict[str, Any]]:
-    records = []
-    for i, column in enumerate(entries.columns.tolist()):
-        record: dict[str, Any] = {
-            "name": DESCRIPTION_NAMES[column],
+    if states is not None:
+        weights["states"] = states.classifier.weight.T.tolist()
+    weighed = [dict(zip(weights, row, strict=True)) for row in zip(*weights.values(), strict=True)]
+    names = [DESCRIPTION_NAMES[column] for column in entries.columns.tolist()]
+    listed = []
+    for i, name in enumerate(names):
+        entry: dict[str, Any] = {
+            "name": name,
             "range": [entries.lowest[i], entries.highest[i]],
+            "centre": entries.centre[i],
+            "scale": entries.scale[i],
         }
         if entries.typical is not None:
-            record["typical"] = entries.typical[i]
-        records.append(record)
-    return records
+            entry["typical"] = entries.typical[i]
+        listed.append({**entry, **weighed[i]})
+    products = [
+        {"of": [names[i] for i in pair], **weights}
+        for pair, weights in zip(entries.pairs.tolist(), weighed[len(names) :], strict=True)
+    ]
+    return {
+        "axes": {
+            axis: {
+                "held_out_accuracy": part.held_out_accuracy,
+                "members": dict(part.members),
+                "bias": part.classifier.bias,
+            }
+            for axis, part in reader.axes.items()
+        },
+        "states": states
+        and {
+            "names": [_state_name(state) for state in STATES],
+            "held_out_accuracy": states.held_out_accuracy,
+            "bias": states.classifier.bias.tolist(),
+        },
+        "entries": listed,
+        "products": products,
+    }
 
 
 def _state_name(state: tuple[float, float]) -> str:
@@ -184,83 +168,77 @@ def _is_deep(value: Any) -> bool:
     )
 
 
-def _axis_from(content: dict[str, Any], source: str, axis: str) -> AxisModel:
-    """Return one axis of a model file, checked."""
+def _taught_from(content: dict[str, Any], source: str, axis: str) -> Taught:
     record = Record(content, source, f"axes.{axis}")
     examples = Record(record.get("examples", dict), source, f"axes.{axis}.examples")
     low, high = POLES[axis]
-    own = record.get("own", dict | None)
-    return AxisModel(
-        alone=_reader_from(record.get("alone", dict), source, f"axes.{axis}.alone", False),
-        own=None if own is None else _reader_from(own, source, f"axes.{axis}.own", True),
+    return Taught(
         examples=(examples.count(low), examples.count(NEUTRAL), examples.count(high)),
         performers=record.count("performers"),
     )
 
 
-def _reader_from(content: dict[str, Any], source: str, where: str, own: bool) -> Reader:
-    record = Record(content, source, where)
-    features, entries = _entries_from(record, source, where, own)
-    knots = record.pairs("calibration")
-    if (np.diff(knots, axis=0) < 0).any() or (np.abs(knots[:, 1]) > 1).any():
-        raise record.fault("calibration", "expected rising pairs of log odds and a reading")
-    classifier: NaiveBayes | Linear
-    if "bias" in content:
-        weight = np.array([feature.number("weight") for feature in features])
-        classifier = Linear(weight, record.number("bias"))
-    else:
-        classifier = NaiveBayes(
-            np.array([feature.pair("mean") for feature in features]).T,
-            np.array([feature.pair("variance", positive=True) for feature in features]).T,
-            record.number("prior_high", 0.0, 1.0, open_ends=True),
+def _reader_from(record: Record, axes: list[str], *, own: bool) -> Reader:
+    """Return a reader of some axes, checked."""
+    listed, products = record.records("entries"), record.records("products")
+    if not listed:
+        raise record.fault("entries", "expected at least one, got none")
+    entries = _entries_from(listed, products, own=own)
+    weighed = [*listed, *products]
+    parts = record.record("axes")
+    readers = {}
+    for axis in axes:
+        part = parts.record(axis)
+        readers[axis] = AxisReader(
+            Linear(np.array([one.number(axis) for one in weighed]), part.number("bias")),
+            _members_from(part.record("members")),
+            part.number("held_out_accuracy", 0.0, 1.0),
         )
+    if record.get("states", dict | None) is None:
+        return Reader(entries, readers)
+    states = record.record("states")
+    expected = [_state_name(state) for state in STATES]
+    if states.get("names", list) != expected:
+        raise states.fault("names", f"expected {', '.join(expected)}")
+    weight = np.array([one.numbers("states", len(STATES)) for one in weighed]).T
     return Reader(
-        family=record.get("family", str),
-        entries=entries,
-        classifier=classifier,
-        calibration=Calibration(knots[:, 0], knots[:, 1]),
-        held_out_accuracy=record.number("held_out_accuracy", 0.0, 1.0),
+        entries,
+        readers,
+        StateReader(
+            Softmax(weight, np.array(states.numbers("bias", len(STATES)))),
+            states.number("held_out_accuracy", 0.0, 1.0),
+        ),
     )
 
 
-def _joint_from(content: object, source: str) -> JointModel:
-    record = Record(content, source, "joint")
-    expected = [_state_name(state) for state in STATES]
-    if record.get("states", list) != expected:
-        raise record.fault("states", f"expected {', '.join(expected)}")
-    readers = []
-    for name in ("alone", "own"):
-        where = f"joint.{name}"
-        part = Record(record.get(name, dict), source, where)
-        features, entries = _entries_from(part, source, where, name == "own")
-        weights = [feature.numbers("weights", len(STATES)) for feature in features]
-        readers.append(
-            StateReader(
-                entries,
-                Softmax(np.array(weights).T, np.array(part.numbers("bias", len(STATES)))),
-                part.number("held_out_accuracy", 0.0, 1.0),
-            )
-        )
-    return JointModel(*readers)
+def _members_from(record: Record) -> Mapping[str, float]:
+    return {name: record.number(name, 0.0, 1.0) for name in record.content}
 
 
-def _entries_from(
-    record: Record, source: str, where: str, own: bool
-) -> tuple[list[Record], Entries]:
-    """Return a reader's list of features, and which entries of a description they are."""
-    listed = record.get("features", list)
-    if not listed:
-        raise record.fault("features", "expected at least one, got none")
-    features = [Record(entry, source, f"{where}.features[{i}]") for i, entry in enumerate(listed)]
-    names = [feature.get("name", str) for feature in features]
-    for i, (feature, name) in enumerate(zip(features, names, strict=True)):
+def _entries_from(listed: list[Record], products: list[Record], *, own: bool) -> Entries:
+    """Return which entries of a description a reader looks at, and which products of them."""
+    names = [one.get("name", str) for one in listed]
+    for i, (one, name) in enumerate(zip(listed, names, strict=True)):
         if name not in DESCRIPTION_NAMES:
-            raise feature.fault("name", f"expected a feature of this version, got {name!r}")
+            raise one.fault("name", f"expected a feature of this version, got {name!r}")
         if name in names[:i]:
-            raise feature.fault("name", f"{name!r} is there twice")
-    ranges = np.array([feature.pair("range") for feature in features]).T
-    if (ranges[0] > ranges[1]).any():
-        raise features[int(np.argmax(ranges[0] > ranges[1]))].fault("range", "expected low, high")
-    typical = np.array([feature.number("typical") for feature in features]) if own else None
-    columns = np.array([DESCRIPTION_NAMES.index(name) for name in names], dtype=np.int64)
-    return features, Entries(columns, ranges[0], ranges[1], typical)
+            raise one.fault("name", f"{name!r} is there twice")
+    ranges = np.array([one.pair("range") for one in listed])
+    for one, (low, high) in zip(listed, ranges, strict=True):
+        if low > high:
+            raise one.fault("range", "expected low, high")
+    pairs = [product.get("of", list) for product in products]
+    for product, pair in zip(products, pairs, strict=True):
+        if len(pair) != 2 or any(name not in names for name in pair):
+            raise product.fault("of", f"expected the names of two entries, got {pair!r}")
+    return Entries(
+        columns=np.array([DESCRIPTION_NAMES.index(name) for name in names], dtype=np.int64),
+        lowest=ranges[:, 0],
+        highest=ranges[:, 1],
+        centre=np.array([one.number("centre") for one in listed]),
+        scale=np.array([one.number("scale", 0.0, open_ends=True) for one in listed]),
+        pairs=np.array(
+            [[names.index(name) for name in pair] for pair in pairs], dtype=np.int64
+        ).reshape(-1, 2),
+        typical=np.array([one.number("typical") for one in listed]) if own else None,
+    )

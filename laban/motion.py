@@ -58,6 +58,11 @@ class RigidMotion:
     def __len__(self) -> int:
         return len(self.time_s)
 
+    @property
+    def step_s(self) -> float:
+        """Time from one sample to the next; there are at least two."""
+        return float(self.time_s[-1] - self.time_s[0]) / (len(self) - 1)
+
     def between(self, start_s: float, end_s: float) -> RigidMotion:
         """Return the samples with ``start_s <= time_s <= end_s``."""
         first = int(np.searchsorted(self.time_s, start_s - 1e-9))

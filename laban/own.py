@@ -30,7 +30,7 @@ class OwnMeasure:
 
     Attributes
     ----------
-    mean : (129,), in the order of `laban.description.DESCRIPTION`.
+    mean : (132,), in the order of `laban.description.DESCRIPTION`.
     takes : how many it is of.
     """
 
@@ -38,7 +38,7 @@ class OwnMeasure:
     takes: int
 
     def beside(self, typical: FloatArray) -> FloatArray:
-        """Return what to read against ``(129,)``: the own mean and a few takes of anybody's."""
+        """Return what to read against ``(132,)``: the own mean and a few takes of anybody's."""
         whole = self.takes * self.mean + PRIOR_TAKES * typical
         return np.asarray(whole / (self.takes + PRIOR_TAKES))
 
@@ -57,7 +57,7 @@ def own_measure(motions: Iterable[RigidMotion]) -> OwnMeasure | None:
 
 
 def measure_of(descriptions: FloatArray) -> OwnMeasure | None:
-    """Return the measure of descriptions ``(n, 129)``; None if n is below `FEWEST_TAKES`."""
+    """Return the measure of descriptions ``(n, 132)``; None if n is below `FEWEST_TAKES`."""
     if len(descriptions) < FEWEST_TAKES:
         return None
     return OwnMeasure(descriptions.mean(axis=0), len(descriptions))

@@ -8,10 +8,14 @@ and spans magnitudes is a logarithm, with a floor below which it is not told apa
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from laban.body import body_extent_m, body_rate
 from laban.features import Feature
 from laban.motion import FloatArray, RigidMotion
+from laban.steps import Steps, finished
 
 SPECTRUM_HZ, SPECTRUM_SHARE = 10.0, 0.05
 """The speed's spectrum is followed up to this rate, while it is above this share of its peak."""
@@ -22,41 +26,54 @@ SUBMOVEMENT_SHARE = 0.2
 SLOW_SHARE = 0.2
 """Slow is below this share of the highest speed."""
 
-MOVING_SHARE, MOVING_M_S = 0.1, 0.005
-"""The path's direction is known above this share of the RMS speed, and above this speed."""
+CHORD_S = 0.1
+"""The path's direction is that of a chord over this time, and the speed whose peaks are counted is
+its mean over this time: a tracker's noise turns neighbouring samples, and makes peaks of its own.
+"""
+
+MOVING_SHARE, MOVING_M_S = 0.1, 0.02
+"""A chord has a direction above this share of the chords' RMS speed, and above this speed."""
+
+ARRIVAL_S = 0.25
+"""How long a movement takes to arrive."""
 
 QUALITIES: tuple[Feature, ...] = (
     Feature("log_duration", "log s", "log T"),
     Feature("log_path", "log m", "log L, L the length of the path"),
-    Feature("log_extent", "log m", "log E, E the RMS distance from the mean position"),
+    Feature("log_extent", "log m", "log of the RMS distance from the mean position"),
     Feature("log_path_over_reach", "", "log (L / max ‖p - p_0‖)"),
     Feature("log_straightness", "", "log (‖p_T - p_0‖ / L)"),
-    Feature("log_turning", "log rad", "log (Θ + 0.3), Θ = ∫ ‖v × a‖ / ‖v‖^2 dt"),
+    Feature("log_turning", "log rad", "log (Θ + 0.3), Θ what chords of 0.1 s turn on the way"),
     Feature("log_turning_per_length", "log rad/m", "log ((Θ + 0.3) / L)"),
     Feature("log_turning_rate", "log rad/s", "log ((Θ + 0.3) / T)"),
     Feature("log_roundness", "", "log (σ_2 / σ_1 + 0.02), σ the path's principal spreads"),
     Feature("log_flatness", "", "log (σ_3 / σ_1 + 0.02)"),
-    Feature("spectral_arc_length", "", "minus the length of the speed's spectrum up to 10 Hz"),
-    Feature("log_dimensionless_jerk", "", "log (∫ ‖j‖^2 dt T^3 / max ‖v‖^2)"),
-    Feature("log_submovements", "", "log (1 + peaks of ‖v‖)"),
-    Feature("log_submovement_rate", "log 1/s", "log ((1 + peaks of ‖v‖) / T)"),
-    Feature("time_to_peak", "", "time of the highest ‖v‖ / T"),
-    Feature("log_peak_speed", "log m/s", "log max ‖v‖"),
-    Feature("log_rms_speed", "log m/s", "log rms ‖v‖"),
-    Feature("log_peak_acceleration", "log m/s^2", "log of the 98th percentile of ‖a‖"),
-    Feature("log_peak_over_mean_speed", "", "log (max ‖v‖ / mean ‖v‖)"),
-    Feature("log_speed_variation", "", "log (sd ‖v‖ / mean ‖v‖)"),
-    Feature("log_acceleration_over_speed", "log 1/s", "log (rms ‖a‖ / rms ‖v‖)"),
-    Feature("log_jerk_over_acceleration", "log 1/s", "log (rms ‖j‖ / rms ‖a‖)"),
     Feature("log_rotation_rate", "log rad/s", "log (mean ‖ω‖ + 0.02)"),
     Feature("log_rotation_over_speed", "log rad/m", "log ((mean ‖ω‖ + 0.02) / (mean ‖v‖ + 0.01))"),
     Feature("log_rotation", "log rad", "log (∫ ‖ω‖ dt + 0.05)"),
-    Feature("slow_share", "", "share of the time in which ‖v‖ < 0.2 max ‖v‖"),
-    Feature("log_speed_range", "", "log of the 10th percentile of ‖v‖ over the 90th"),
-    Feature("log_speed_over_extent", "log 1/s", "log (mean ‖v‖ / E)"),
-    Feature("log_acceleration_over_extent", "log 1/s^2", "log (rms ‖a‖ / E)"),
+    Feature("spectral_arc_length", "", "minus the length of the spectrum of s up to 10 Hz"),
+    Feature("log_dimensionless_jerk", "", "log (∫ s''^2 dt T^3 / max s^2)"),
+    Feature("log_submovements", "", "log (1 + peaks of s, averaged over 0.1 s)"),
+    Feature("log_submovement_rate", "log 1/s", "log ((1 + peaks) / T)"),
+    Feature("time_to_peak", "", "time of the highest s, averaged over 0.1 s, / T"),
+    Feature("log_peak_speed", "log m/s", "log max s"),
+    Feature("log_rms_speed", "log m/s", "log rms s"),
+    Feature("log_peak_acceleration", "log m/s^2", "log of the 98th percentile of s'"),
+    Feature("log_rms_acceleration", "log m/s^2", "log rms s'"),
+    Feature("log_peak_over_mean_speed", "", "log (max s / mean s)"),
+    Feature("log_speed_variation", "", "log (sd s / mean s)"),
+    Feature("log_acceleration_variation", "", "log (98th percentile of s' / rms s')"),
+    Feature("log_acceleration_over_speed", "log 1/s", "log (rms s' / rms s)"),
+    Feature("log_jerk_over_acceleration", "log 1/s", "log (rms s'' / rms s')"),
+    Feature("slow_share", "", "share of the time in which s < 0.2 max s"),
+    Feature("log_speed_range", "", "log of the 10th percentile of s over the 90th"),
+    Feature("log_speed_over_extent", "log 1/s", "log (mean s / E)"),
+    Feature("log_acceleration_over_extent", "log 1/s^2", "log (rms s' / E)"),
+    Feature("log_arrival", "", "log ((rms s' of the last 0.25 s + 0.05) / (rms s' + 0.05))"),
 )
-"""Each a number, in the order in which `movement_qualities` gives them."""
+"""Each a number, in the order in which `movement_qualities` gives them: the path's, the rotation's
+and, of the whole body (`laban.body`), those of its speed s, acceleration s', jerk s'' and extent E,
+all RMS over its parts: s^2 = ‖v‖^2 + (0.1 m)^2 ‖ω‖^2."""
 
 
 def movement_qualities(motion: RigidMotion) -> FloatArray:
@@ -71,7 +88,7 @@ def movement_qualities(motion: RigidMotion) -> FloatArray:
 
     Returns
     -------
-    (29,) finite, in the order of `QUALITIES`.
+    (32,) finite, in the order of `QUALITIES`.
 
     References
     ----------
@@ -79,69 +96,145 @@ def movement_qualities(motion: RigidMotion) -> FloatArray:
        movement smoothness", Journal of NeuroEngineering and Rehabilitation 12, 2015 (spectral arc
        length, dimensionless jerk).
     """
-    v, a, position = motion.velocity_m_s, motion.acceleration_m_s2, motion.position_m
-    speed, acceleration, jerk, rate = (
-        np.sqrt(np.einsum("ni,ni->n", x, x))
-        for x in (v, a, motion.jerk_m_s3, motion.angular_velocity_rad_s)
-    )
-    step_s = float(motion.time_s[-1] - motion.time_s[0]) / (len(motion) - 1)
+    return finished(qualities_in_steps(motion))
+
+
+def qualities_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
+    """Do what `movement_qualities` does, in steps."""
+    of_path = _of_path(motion)
+    yield
+    of_speed = _of_speed(motion)
+    yield
+    values = {**of_path, **of_speed}
+    return np.array([values[quality.name] for quality in QUALITIES])
+
+
+def _of_path(motion: RigidMotion) -> dict[str, float]:
+    """Return the qualities of the path and of the rotation."""
+    position, step_s = motion.position_m, motion.step_s
     duration_s = step_s * len(motion)
-    path_m = max(float(speed.sum()) * step_s, 1e-4)
-    rms_speed, rms_acceleration, rms_jerk = (
-        max(float(np.sqrt(np.mean(x * x))), 1e-4) for x in (speed, acceleration, jerk)
-    )
-    mean_speed, peak = max(float(speed.mean()), 1e-4), max(float(speed.max()), 1e-4)
+    speed, rate = _length(motion.velocity_m_s), _length(motion.angular_velocity_rad_s)
+    mean_speed, mean_rate = float(speed.mean()), float(rate.mean())
+    path_m = max(mean_speed * duration_s, 1e-4)
 
     centred = position - position.mean(axis=0)
     spread = np.sqrt(np.maximum(np.linalg.eigvalsh(centred.T @ centred / len(centred)), 0.0))[::-1]
-    extent_m = max(float(np.sqrt(np.sum(spread * spread))), 1e-4)
     longest = max(float(spread[0]), 1e-4)
     from_start = position - position[0]
-    reach_m = max(float(np.sqrt(np.einsum("ni,ni->n", from_start, from_start).max())), 1e-3)
+    reach_m = max(float(_length(from_start).max()), 1e-3)
     net_m = max(float(np.linalg.norm(from_start[-1])), 1e-3)
+    turning = _turning_rad(position, step_s) + 0.3
+    rotation = mean_rate + 0.02
+    return _logs(
+        log_duration=duration_s,
+        log_path=path_m,
+        log_extent=max(float(np.sqrt(spread @ spread)), 1e-4),
+        log_path_over_reach=path_m / reach_m,
+        log_straightness=net_m / path_m,
+        log_turning=turning,
+        log_turning_per_length=turning / path_m,
+        log_turning_rate=turning / duration_s,
+        log_roundness=float(spread[1]) / longest + 0.02,
+        log_flatness=float(spread[2]) / longest + 0.02,
+        log_rotation_rate=rotation,
+        log_rotation_over_speed=rotation / (mean_speed + 0.01),
+        log_rotation=mean_rate * duration_s + 0.05,
+    )
 
-    moving = speed > max(MOVING_SHARE * rms_speed, MOVING_M_S)
-    bending = np.sqrt(np.sum(np.cross(v[moving], a[moving]) ** 2, axis=-1))
-    turning = float(np.sum(bending / speed[moving] ** 2)) * step_s + 0.3
-    rotation = float(rate.mean()) + 0.02
-    inner = speed[1:-1]
-    is_peak = (inner > speed[:-2]) & (inner >= speed[2:]) & (inner > SUBMOVEMENT_SHARE * peak)
-    peaks = 1 + int(is_peak.sum())
-    low, high = np.percentile(speed, [10.0, 90.0])
 
-    logs = {
-        "log_duration": duration_s,
-        "log_path": path_m,
-        "log_extent": extent_m,
-        "log_path_over_reach": path_m / reach_m,
-        "log_straightness": net_m / path_m,
-        "log_turning": turning,
-        "log_turning_per_length": turning / path_m,
-        "log_turning_rate": turning / duration_s,
-        "log_roundness": spread[1] / longest + 0.02,
-        "log_flatness": spread[2] / longest + 0.02,
-        "log_dimensionless_jerk": rms_jerk**2 * duration_s**4 / peak**2,
-        "log_submovements": peaks,
-        "log_submovement_rate": peaks / duration_s,
-        "log_peak_speed": peak,
-        "log_rms_speed": rms_speed,
-        "log_peak_acceleration": max(float(np.percentile(acceleration, 98.0)), 1e-4),
-        "log_peak_over_mean_speed": peak / mean_speed,
-        "log_speed_variation": max(float(speed.std()), 1e-4) / mean_speed,
-        "log_acceleration_over_speed": rms_acceleration / rms_speed,
-        "log_jerk_over_acceleration": rms_jerk / rms_acceleration,
-        "log_rotation_rate": rotation,
-        "log_rotation_over_speed": rotation / (mean_speed + 0.01),
-        "log_rotation": float(rate.sum()) * step_s + 0.05,
-        "log_speed_range": (low + 0.01) / (high + 0.01),
-        "log_speed_over_extent": mean_speed / extent_m,
-        "log_acceleration_over_extent": rms_acceleration / extent_m,
+def _of_speed(motion: RigidMotion) -> dict[str, float]:
+    """Return the qualities of the body's speed and of its derivatives."""
+    step_s = motion.step_s
+    duration_s = step_s * len(motion)
+    speed = body_rate(motion.velocity_m_s, motion.angular_velocity_rad_s)
+    acceleration = body_rate(motion.acceleration_m_s2, motion.angular_acceleration_rad_s2)
+    jerk = body_rate(motion.jerk_m_s3, motion.angular_jerk_rad_s3)
+    rms_speed, rms_acceleration, rms_jerk = (
+        max(_rms(x), 1e-4) for x in (speed, acceleration, jerk)
+    )
+    in_order = np.sort(speed)
+    mean_speed, peak = max(float(speed.mean()), 1e-4), max(float(in_order[-1]), 1e-4)
+    low, high = _percentile(in_order, 0.1), _percentile(in_order, 0.9)
+    peak_acceleration = max(_percentile(np.sort(acceleration), 0.98), 1e-4)
+    extent_m = max(body_extent_m(motion), 1e-4)
+
+    even = _averaged(speed, round(0.5 * CHORD_S / step_s))
+    inner = even[1:-1]
+    is_peak = (inner > even[:-2]) & (inner >= even[2:]) & (inner > SUBMOVEMENT_SHARE * peak)
+    peaks = 1 + int(np.count_nonzero(is_peak))
+    arriving = acceleration[-max(round(ARRIVAL_S / step_s), 1) :]
+    return {
+        "spectral_arc_length": spectral_arc_length(speed, step_s),
+        "time_to_peak": float(np.argmax(even)) / (len(even) - 1),
+        "slow_share": float(np.searchsorted(in_order, SLOW_SHARE * peak)) / len(speed),
+        **_logs(
+            log_dimensionless_jerk=rms_jerk**2 * duration_s**4 / peak**2,
+            log_submovements=peaks,
+            log_submovement_rate=peaks / duration_s,
+            log_peak_speed=peak,
+            log_rms_speed=rms_speed,
+            log_peak_acceleration=peak_acceleration,
+            log_rms_acceleration=rms_acceleration,
+            log_peak_over_mean_speed=peak / mean_speed,
+            log_speed_variation=max(float(speed.std()), 1e-4) / mean_speed,
+            log_acceleration_variation=peak_acceleration / rms_acceleration,
+            log_acceleration_over_speed=rms_acceleration / rms_speed,
+            log_jerk_over_acceleration=rms_jerk / rms_acceleration,
+            log_speed_range=(low + 0.01) / (high + 0.01),
+            log_speed_over_extent=mean_speed / extent_m,
+            log_acceleration_over_extent=rms_acceleration / extent_m,
+            log_arrival=(_rms(arriving) + 0.05) / (rms_acceleration + 0.05),
+        ),
     }
-    values = {name: float(np.log(value)) for name, value in logs.items()}
-    values["spectral_arc_length"] = spectral_arc_length(speed, step_s)
-    values["time_to_peak"] = float(np.argmax(speed)) / (len(speed) - 1)
-    values["slow_share"] = float(np.mean(speed < SLOW_SHARE * peak))
-    return np.array([values[quality.name] for quality in QUALITIES])
+
+
+def _turning_rad(position: FloatArray, step_s: float) -> float:
+    """Return by how much a path turns, as its chords over `CHORD_S` do.
+
+    All chords are compared with the ones that begin where they end; where either is too short to
+    have a direction nothing turns.
+    """
+    k = max(round(CHORD_S / step_s), 1)
+    if len(position) <= 2 * k:
+        return 0.0
+    chord = position[k:] - position[:-k]
+    length = _length(chord)
+    least = max(MOVING_M_S * k * step_s, MOVING_SHARE * _rms(length))
+    product = np.einsum("ni,ni->n", chord[:-k], chord[k:])
+    lengths = length[:-k] * length[k:]
+    moving = (length[:-k] > least) & (length[k:] > least)
+    cosine = np.divide(product, lengths, out=np.ones_like(product), where=moving)
+    per_s = float(np.arccos(np.clip(cosine, -1.0, 1.0)).mean()) / (k * step_s)
+    return per_s * step_s * len(position)
+
+
+def _averaged(signal: FloatArray, reach: int) -> FloatArray:
+    """Return the mean over ``reach`` samples to either side; without the ends that lack them."""
+    width = 2 * reach + 1
+    if len(signal) < width + 2:
+        return signal
+    total = np.cumsum(np.concatenate([[0.0], signal]))
+    return np.asarray((total[width:] - total[:-width]) / width)
+
+
+def _percentile(in_order: FloatArray, share: float) -> float:
+    """Return a percentile of a sorted signal, between samples on a line."""
+    place = share * (len(in_order) - 1)
+    before = min(int(place), len(in_order) - 2)
+    return float(in_order[before] + (place - before) * (in_order[before + 1] - in_order[before]))
+
+
+def _logs(**values: float) -> dict[str, float]:
+    """Return logarithms of positive numbers."""
+    return {name: math.log(value) for name, value in values.items()}
+
+
+def _rms(signal: FloatArray) -> float:
+    return math.sqrt(float(signal @ signal) / len(signal))
+
+
+def _length(vector: FloatArray) -> FloatArray:
+    return np.sqrt(np.einsum("ni,ni->n", vector, vector))
 
 
 def spectral_arc_length(speed: FloatArray, step_s: float) -> float:

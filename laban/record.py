@@ -5,10 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from laban.effort import LabanError
-from laban.motion import FloatArray
 
 
 class Record:
@@ -52,13 +49,10 @@ class Record:
             raise self.fault(key, f"expected a count, got {value}")
         return value
 
-    def pair(self, key: str, *, positive: bool = False) -> tuple[float, float]:
+    def pair(self, key: str) -> tuple[float, float]:
         """Return two finite numbers."""
-        values = self.get(key, list)
-        if not _is_pair(values) or (positive and min(values) <= 0):
-            wanted = "two positive numbers" if positive else "two numbers"
-            raise self.fault(key, f"expected {wanted}, got {values!r}")
-        return float(values[0]), float(values[1])
+        low, high = self.numbers(key, 2)
+        return low, high
 
     def numbers(self, key: str, count: int) -> list[float]:
         """Return a list of so many finite numbers."""
@@ -67,21 +61,23 @@ class Record:
             raise self.fault(key, f"expected {count} numbers, got {values!r}")
         return [float(value) for value in values]
 
-    def pairs(self, key: str) -> FloatArray:
-        """Return a list of pairs of finite numbers, at least one, as ``(k, 2)``."""
-        values = self.get(key, list)
-        if not values or not all(_is_pair(value) for value in values):
-            raise self.fault(key, "expected a list of pairs of numbers")
-        return np.array(values, dtype=np.float64)
+    def record(self, key: str) -> Record:
+        """Return an object in this one."""
+        return Record(self.get(key, dict), self._source, self._path(key))
+
+    def records(self, key: str) -> list[Record]:
+        """Return a list of objects."""
+        return [
+            Record(one, self._source, f"{self._path(key)}[{i}]")
+            for i, one in enumerate(self.get(key, list))
+        ]
 
     def fault(self, key: str, what: str) -> LabanError:
         """Return the error for an entry."""
-        return LabanError(f"{self._source}: {self._name}.{key}: {what}")
+        return LabanError(f"{self._source}: {self._path(key)}: {what}")
 
-
-def _is_pair(value: object) -> bool:
-    """Return whether a JSON value is a list of two finite numbers."""
-    return isinstance(value, list) and len(value) == 2 and all(_is_number(v) for v in value)
+    def _path(self, key: str) -> str:
+        return f"{self._name}.{key}"
 
 
 def _is_number(value: object) -> bool:

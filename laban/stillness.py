@@ -6,14 +6,15 @@ import math
 
 import numpy as np
 
+from laban.body import body_speed
 from laban.features import MIN_SAMPLES, SLOW_M_S
 from laban.motion import RigidMotion
 
 STILL_SHARE = 0.05
 """Slower than this share of its quick moments (the 95th percentile), a body has not set out."""
 
-STILL_M_S, STILL_RAD_S = 0.005, 0.05
-"""Nor at or below these speeds, whatever the rest is like."""
+STILL_M_S = 0.005
+"""Nor at or below this speed, whatever the rest is like."""
 
 REST_RAD_S = 0.1
 """A body that turns no faster and moves no faster than `SLOW_M_S` (RMS) is at rest."""
@@ -38,13 +39,11 @@ def without_still_ends(motion: RigidMotion) -> RigidMotion:
     in between stays: pauses are part of how somebody moves. A body that never moves is returned
     as it is.
     """
-    speed = np.linalg.norm(motion.velocity_m_s, axis=-1)
-    rate = np.linalg.norm(motion.angular_velocity_rad_s, axis=-1)
-    moves = np.zeros(len(motion), dtype=bool)
-    for signal, least in ((speed, STILL_M_S), (rate, STILL_RAD_S)):
-        if len(signal):
-            moves |= signal > max(STILL_SHARE * float(np.percentile(signal, 95.0)), least)
-    where = np.flatnonzero(moves)
+    if not len(motion):
+        return motion
+    speed = body_speed(motion)
+    quick = float(np.sort(speed)[math.ceil(0.95 * (len(speed) - 1))])
+    where = np.flatnonzero(speed > max(STILL_SHARE * quick, STILL_M_S))
     if not len(where):
         return motion
     return motion.between(float(motion.time_s[where[0]]), float(motion.time_s[where[-1]]))

@@ -1,29 +1,27 @@
 """Training: from labelled descriptions to an `EffortModel`.
 
-Per axis, for people who are not known and for people whose own measure is: every candidate is
-judged on performers that it has not learned from, the best is taken, and how sure it may be is
-learned from the same held-out takes. For the accuracy that is reported all of that is done once
-more for each performer without any take of theirs.
+Twice, for people who are not known and for people whose own measure is: per axis a committee
+(`laban.committee`) learns, and the joint states of Time and Weight are learned beside. For the
+accuracy that is reported all of that is done once more for each performer without any take of
+theirs.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from laban.calibration import Calibration, fit_calibration
-from laban.candidates import CANDIDATES, EAGER, Candidate, Fitted, folds
-from laban.classifier import NaiveBayes
+from laban.committee import COUNT, ENTRY_NAMES, FACTORS, PAIRS, Committee, convened, folds
 from laban.description import DESCRIPTION_NAMES, FAMILIES
 from laban.effort import AXES, LabanError
 from laban.linear import Linear, Softmax, fit_softmax
-from laban.model import POLES, STATES, AxisModel, EffortModel, JointModel
+from laban.model import POLES, STATES, EffortModel, Taught
 from laban.motion import FloatArray
 from laban.own import OwnMeasure
-from laban.reader import Entries, Reader, StateReader
+from laban.reader import AxisReader, Entries, Reader, StateReader, reading_of
 
 IntArray = NDArray[np.int64]
 
@@ -33,7 +31,21 @@ FEWEST_PERFORMERS = 3
 SIGNIFICANT_DIGITS = 6
 """Of a model's numbers: far finer than any measurement, short enough to read."""
 
-_EVERYTHING = np.array([DESCRIPTION_NAMES.index(name) for name in FAMILIES["everything"]])
+MOST_SPREADS = 3.0
+"""Values count up to so many standard deviations from the mean: products would go on growing."""
+
+STATES_RIDGE = 10.0
+"""Of the joint states' own weights."""
+
+_COLUMNS = np.array([DESCRIPTION_NAMES.index(name) for name in ENTRY_NAMES], dtype=np.int64)
+
+_OF_STATES = np.concatenate(
+    [
+        np.array([ENTRY_NAMES.index(name) for name in FAMILIES["everything"]], dtype=np.int64),
+        np.arange(len(ENTRY_NAMES), COUNT),
+    ]
+)
+"""What the joint states are read from."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,12 +56,12 @@ class AxisReport:
     ----------
     reading : (n,) of each labelled take, by a reader that had not seen its performer.
     meant : (n,) -1 low pole, 1 high pole, 0 neither.
-    families : what was chosen each time, in the order in which performers were left out.
+    members : share of each member of the committee, the mean over performers left out.
     """
 
     reading: FloatArray
     meant: FloatArray
-    families: tuple[str, ...] = ()
+    members: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def accuracy(self) -> float:
@@ -93,7 +105,7 @@ def train(
     Parameters
     ----------
     descriptions
-        ``(n, 129)`` as `laban.description.describe` gives.
+        ``(n, 132)`` as `laban.description.describe` gives.
     meant
         By axis, ``(n,)``: -1 low pole, 1 high pole, 0 neither, NaN not labelled. Takes of
         neither pole serve the calibration alone. An axis without a label is left out.
@@ -113,23 +125,18 @@ def train(
     labelled = {axis: meant[axis] for axis in AXES if axis in meant}
     labelled = {axis: goal for axis, goal in labelled.items() if np.isfinite(goal).any()}
     check_labels(labelled, performers)
-    parts: dict[str, AxisModel] = {}
-    alone: dict[str, AxisReport] = {}
-    own: dict[str, AxisReport] = {}
-    for axis, goal in labelled.items():
-        known = np.isfinite(goal)
-        readers = []
-        for reports, against in ((alone, False), (own, True)):
-            reports[axis] = _held_out_report(descriptions, goal, whose, against)
-            readers.append(_reader(descriptions, goal, whose, against, reports[axis].accuracy))
-        parts[axis] = AxisModel(
-            alone=readers[0],
-            own=readers[1],
+    taught = {
+        axis: Taught(
             examples=(int(np.sum(goal < 0)), int(np.sum(goal == 0)), int(np.sum(goal > 0))),
-            performers=len(np.unique(whose[known])),
+            performers=len(np.unique(whose[np.isfinite(goal)])),
         )
-    joint = _joint(descriptions, labelled, whose)
-    return Training(EffortModel(parts, trained_on, seed, joint), alone, own)
+        for axis, goal in labelled.items()
+    }
+    state = _states(labelled, whose)
+    (alone, reports), (own, own_reports) = (
+        _trained(descriptions, labelled, state, whose, against) for against in (False, True)
+    )
+    return Training(EffortModel(taught, alone, own, trained_on, seed), reports, own_reports)
 
 
 def check_labels(meant: Mapping[str, FloatArray], performers: Sequence[str]) -> None:
@@ -165,132 +172,182 @@ def against_own(descriptions: FloatArray, whose: IntArray, typical: FloatArray) 
     return relative
 
 
-def _held_out_report(
-    descriptions: FloatArray, goal: FloatArray, whose: IntArray, against: bool
-) -> AxisReport:
-    """Choose, learn and calibrate without some performers, read theirs; all in turn."""
-    known = np.isfinite(goal)
-    reading = np.full(len(goal), np.nan)
-    families = []
+def _trained(
+    descriptions: FloatArray,
+    labelled: Mapping[str, FloatArray],
+    state: IntArray | None,
+    whose: IntArray,
+    against: bool,
+) -> tuple[Reader, dict[str, AxisReport]]:
+    """Return what all takes teach, and how well that does on performers that were left out."""
+    odds = {axis: np.full(len(whose), np.nan) for axis in labelled}
+    members: dict[str, list[Mapping[str, float]]] = {axis: [] for axis in labelled}
+    scores = np.zeros((len(whose), len(STATES)))
     for out in folds(whose):
-        inside, asked = ~out & known, out & known
-        if not asked.any():
-            continue
-        seen = descriptions
-        if against:
-            seen = against_own(descriptions, whose, typical_of(descriptions[~out], whose[~out]))
-        name, odds = _chosen(seen[inside], goal[inside], whose[inside])
-        fitted = _fitted(CANDIDATES[name], seen[inside], goal[inside], whose[inside])
-        calibration = fit_calibration(odds, goal[inside])
-        reading[asked] = [calibration.value(o) for o in fitted.log_odds(seen[asked]).tolist()]
-        families.append(name)
-    return AxisReport(reading[known], goal[known], tuple(families))
+        entries, learned, states = _learned(descriptions, labelled, state, whose, against, ~out)
+        seen = _seen(entries, descriptions[out], whose[out])
+        for axis, committee in learned.items():
+            odds[axis][out] = committee.classifier.log_odds(seen)
+            members[axis].append(committee.shares)
+        if states is not None:
+            scores[out] = states.scores(seen)
+    reports = {}
+    for axis, goal in labelled.items():
+        known = np.isfinite(goal)
+        reading = np.array([reading_of(o) for o in odds[axis][known].tolist()])
+        reports[axis] = AxisReport(reading, goal[known], _mean_shares(members[axis]))
+
+    entries, learned, states = _learned(
+        descriptions, labelled, state, whose, against, np.ones(len(whose), bool)
+    )
+    axes = {
+        axis: AxisReader(
+            committee.classifier, _rounded_shares(committee.shares), _short(reports[axis].accuracy)
+        )
+        for axis, committee in learned.items()
+    }
+    reader = None
+    if state is not None and states is not None:
+        told = state >= 0
+        sure = _sureness(scores[told], state[told])
+        right = float(np.mean(scores[told].argmax(axis=1) == state[told]))
+        reader = StateReader(Softmax(sure * states.weight, sure * states.bias), _short(right))
+    return _short_reader(Reader(entries, axes, reader)), reports
 
 
-def _reader(
-    descriptions: FloatArray, goal: FloatArray, whose: IntArray, against: bool, accuracy: float
-) -> Reader:
-    """Choose, learn and calibrate on all performers."""
-    typical = typical_of(descriptions, whose)
-    seen = against_own(descriptions, whose, typical) if against else descriptions
-    known = np.isfinite(goal)
-    name, odds = _chosen(seen[known], goal[known], whose[known])
-    fitted = _fitted(CANDIDATES[name], seen[known], goal[known], whose[known])
-    calibration = fit_calibration(odds, goal[known])
-    return Reader(
-        family=name,
-        entries=Entries(
-            fitted.columns,
-            _rounded(fitted.lowest),
-            _rounded(fitted.highest),
-            _rounded(typical[fitted.columns]) if against else None,
-        ),
-        classifier=_short_classifier(fitted.classifier),
-        calibration=Calibration(_rounded(calibration.log_odds), _rounded(calibration.reading)),
-        held_out_accuracy=_short(accuracy),
+def _learned(
+    descriptions: FloatArray,
+    labelled: Mapping[str, FloatArray],
+    state: IntArray | None,
+    whose: IntArray,
+    against: bool,
+    among: NDArray[np.bool_],
+) -> tuple[Entries, dict[str, Committee], Softmax | None]:
+    """Learn from some takes: what is looked at, each axis, and the joint states."""
+    descriptions, whose = descriptions[among], whose[among]
+    typical = typical_of(descriptions, whose) if against else None
+    entries = _entries(descriptions, whose, typical)
+    seen = _seen(entries, descriptions, whose)
+    axes = {}
+    for axis, labels in labelled.items():
+        goal = labels[among]
+        known = np.isfinite(goal)
+        axes[axis] = convened(seen[known], goal[known], whose[known])
+    if state is None:
+        return entries, axes, None
+    state = state[among]
+    told = state >= 0
+    if len(np.unique(state[told])) < len(STATES):
+        return entries, axes, None
+    own = fit_softmax(seen[told][:, _OF_STATES], state[told], STATES_RIDGE)
+    return entries, axes, _one_decision(own, axes["time"].classifier, axes["weight"].classifier)
+
+
+def _entries(descriptions: FloatArray, whose: IntArray, typical: FloatArray | None) -> Entries:
+    """Return what is looked at, on the scale of these takes."""
+    seen = descriptions if typical is None else against_own(descriptions, whose, typical)
+    seen = seen[:, _COLUMNS]
+    centre, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-9
+    return Entries(
+        columns=_COLUMNS,
+        lowest=np.maximum(seen.min(axis=0), centre - MOST_SPREADS * scale),
+        highest=np.minimum(seen.max(axis=0), centre + MOST_SPREADS * scale),
+        centre=centre,
+        scale=scale,
+        pairs=PAIRS,
+        typical=None if typical is None else typical[_COLUMNS],
     )
 
 
-def _chosen(seen: FloatArray, goal: FloatArray, whose: IntArray) -> tuple[str, FloatArray]:
-    """Return the best candidate on performers left out, and its log odds of each take then."""
-    at_pole = goal != 0
-    best, best_loss, best_odds = "", np.full(int(at_pole.sum()), np.inf), np.zeros(len(goal))
-    for name, candidate in CANDIDATES.items():
-        odds = np.zeros(len(goal))
-        for out in folds(whose):
-            poles = goal[~out & at_pole]
-            if (poles > 0).all() or (poles < 0).all():
-                continue
-            odds[out] = _fitted(candidate, seen[~out], goal[~out], whose[~out]).log_odds(seen[out])
-        loss = np.logaddexp(0.0, -odds[at_pole] * goal[at_pole])
-        better = best_loss - loss
-        margin = float(better.std() / np.sqrt(len(better))) if name in EAGER else 0.0
-        if not better.mean() <= margin:
-            best, best_loss, best_odds = name, loss, odds
-    return best, best_odds
+def _seen(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
+    """Return entries and products of takes; against all the performer's takes, if they are so."""
+    values = descriptions[:, entries.columns]
+    if entries.typical is not None:
+        values = against_own(values, whose, entries.typical)
+    return entries.seen(values)
 
 
-def _fitted(candidate: Candidate, seen: FloatArray, goal: FloatArray, whose: IntArray) -> Fitted:
-    """Learn from the takes of either pole."""
-    at_pole = goal != 0
-    return candidate(seen[at_pole], goal[at_pole] > 0, whose[at_pole])
-
-
-def _joint(
-    descriptions: FloatArray, labelled: Mapping[str, FloatArray], whose: IntArray
-) -> JointModel | None:
-    """Train the states of Time and Weight together, where enough takes have a pole on both."""
+def _states(labelled: Mapping[str, FloatArray], whose: IntArray) -> IntArray | None:
+    """Return each take's joint state, -1 for none; None where too few people had each of them."""
     if not {"time", "weight"} <= set(labelled):
         return None
-    time, weight = labelled["time"], labelled["weight"]
-    state = np.full(len(time), -1, dtype=np.int64)
-    for i, (t, w) in enumerate(STATES):
-        state[(time == t) & (weight == w)] = i
-    both = state >= 0
+    state = np.full(len(whose), -1, dtype=np.int64)
+    for i, (time, weight) in enumerate(STATES):
+        state[(labelled["time"] == time) & (labelled["weight"] == weight)] = i
     people = [len(np.unique(whose[state == i])) for i in range(len(STATES))]
-    if min(people) < FEWEST_PERFORMERS:
-        return None
-    readers = []
-    for against in (False, True):
-        right = 0
-        for out in folds(whose):
-            seen = _seen(descriptions, whose, typical_of(descriptions[~out], whose[~out]), against)
-            fitted = fit_softmax(seen[both & ~out], state[both & ~out])
-            right += int(
-                (fitted.chances(seen[both & out]).argmax(axis=1) == state[both & out]).sum()
-            )
-        typical = typical_of(descriptions, whose)
-        seen = _seen(descriptions, whose, typical, against)[both]
-        fitted = fit_softmax(seen, state[both])
-        readers.append(
-            StateReader(
-                Entries(
-                    _EVERYTHING,
-                    _rounded(seen.min(axis=0)),
-                    _rounded(seen.max(axis=0)),
-                    _rounded(typical[_EVERYTHING]) if against else None,
+    return None if min(people) < FEWEST_PERFORMERS else state
+
+
+def _one_decision(states: Softmax, time: Linear, weight: Linear) -> Softmax:
+    """Return the decision of the states' own weights and of both axes' log odds together.
+
+    The logarithm of a state's chance is, but for a common term, half of each axis's log odds, with
+    the state's signs; both sides are heard alike.
+    """
+    signs = 0.5 * np.array(STATES)
+    own = np.zeros((len(STATES), COUNT))
+    own[:, _OF_STATES] = states.weight
+    return Softmax(
+        own + signs @ np.stack([time.weight, weight.weight]),
+        states.bias + signs @ np.array([time.bias, weight.bias]),
+    )
+
+
+def _sureness(scores: FloatArray, state: IntArray) -> float:
+    """Return what held-out scores ``(n, k)`` are to be multiplied by, as `temperature` does."""
+    scaled = FACTORS[:, None, None] * (scores - scores.max(axis=1, keepdims=True))
+    chance = scaled[:, np.arange(len(state)), state] - np.log(np.exp(scaled).sum(axis=-1))
+    return float(FACTORS[int(np.argmax(chance.sum(axis=-1)))])
+
+
+def _mean_shares(shares: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Return the mean share of each member, the largest first."""
+    names = dict.fromkeys(name for one in shares for name in one)
+    mean = {name: sum(one.get(name, 0.0) for one in shares) / len(shares) for name in names}
+    return dict(sorted(mean.items(), key=lambda item: -item[1]))
+
+
+def _rounded_shares(shares: Mapping[str, float]) -> dict[str, float]:
+    return {name: round(share, 3) for name, share in shares.items()}
+
+
+def _short_reader(reader: Reader) -> Reader:
+    """Return a reader without what has no weight in it, its numbers of `SIGNIFICANT_DIGITS`."""
+    weights = [part.classifier.weight[None] for part in reader.axes.values()]
+    if reader.states is not None:
+        weights.append(reader.states.classifier.weight)
+    used = np.abs(np.concatenate(weights)).max(axis=0) > 0.0
+    m = len(reader.entries.columns)
+    pairs = reader.entries.pairs[used[m:]]
+    kept = np.flatnonzero(used[:m] | np.isin(np.arange(m), pairs))
+    both = np.concatenate([kept, m + np.flatnonzero(used[m:])])
+    entries, states = reader.entries, reader.states
+    return Reader(
+        Entries(
+            columns=entries.columns[kept],
+            lowest=_rounded(entries.lowest[kept]),
+            highest=_rounded(entries.highest[kept]),
+            centre=_rounded(entries.centre[kept]),
+            scale=_rounded(entries.scale[kept]),
+            pairs=np.searchsorted(kept, pairs),
+            typical=None if entries.typical is None else _rounded(entries.typical[kept]),
+        ),
+        {
+            axis: replace(
+                part,
+                classifier=Linear(
+                    _rounded(part.classifier.weight[both]), _short(part.classifier.bias)
                 ),
-                Softmax(_rounded(fitted.weight), _rounded(fitted.bias)),
-                _short(right / int(both.sum())),
             )
-        )
-    return JointModel(*readers)
-
-
-def _seen(
-    descriptions: FloatArray, whose: IntArray, typical: FloatArray, against: bool
-) -> FloatArray:
-    """Return what states are read from."""
-    whole = against_own(descriptions, whose, typical) if against else descriptions
-    return whole[:, _EVERYTHING]
-
-
-def _short_classifier(classifier: NaiveBayes | Linear) -> NaiveBayes | Linear:
-    """Return a classifier with numbers of `SIGNIFICANT_DIGITS`."""
-    if isinstance(classifier, Linear):
-        return Linear(_rounded(classifier.weight), _short(classifier.bias))
-    return NaiveBayes(
-        _rounded(classifier.mean), _rounded(classifier.variance), _short(classifier.prior_high)
+            for axis, part in reader.axes.items()
+        },
+        states
+        and replace(
+            states,
+            classifier=Softmax(
+                _rounded(states.classifier.weight[:, both]), _rounded(states.classifier.bias)
+            ),
+        ),
     )
 
 

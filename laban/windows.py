@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from laban.effort import AXES, Effort
-from laban.model import EffortModel, read_effort
+from laban.model import EffortModel, read_in_steps
 from laban.motion import FloatArray, RigidMotion
 from laban.own import OwnMeasure
+from laban.steps import Steps
 
 WINDOW_S = 1.0
 """Long enough for a stroke and its rhythm."""
@@ -53,7 +54,7 @@ def effort_over_time(
         Length of a window, and time from one to the next.
     """
     stream = EffortStream(model, own, window_s=window_s, step_s=step_s)
-    found = stream.push(motion)
+    found = [*stream.push(motion), *stream.finish()]
     values = [[getattr(effort, axis) for axis in AXES] for _, effort in found]
     return EffortCurve(
         np.array([time_s for time_s, _ in found]),
@@ -64,8 +65,10 @@ def effort_over_time(
 class EffortStream:
     """Reads Effort from a movement as it comes, a window every so often.
 
-    It says what `effort_over_time` says of the whole, whatever the pieces, and keeps no more than
-    a window.
+    Each sample does one short piece of the reading of the windows that are complete, so that no
+    sample takes long; a reading comes some samples after its window's end. What is said is what
+    `effort_over_time` says of the whole, whatever the pieces. No more is kept than a window, and
+    the one that is being read.
     """
 
     def __init__(
@@ -80,35 +83,60 @@ class EffortStream:
         self._own = own
         self._window_s = window_s
         self._step_s = step_s
-        self._pieces: list[RigidMotion] = []  # from where the next window begins, or before
+        self._arrays: tuple[FloatArray, ...] = ()  # a motion's, from the next window's beginning on
         self._next_s = np.nan
+        self._reading: deque[tuple[float, Steps[Effort]]] = deque()
 
     def push(self, motion: RigidMotion) -> list[tuple[float, Effort]]:
-        """Take the samples that follow, and return the windows they complete: middle and Effort."""
+        """Take the samples that follow; return the windows whose reading is done: middle, Effort.
+
+        A sample does a piece of work, whatever is left to do; but where windows follow faster than
+        that, the ones before the last are read to their end.
+        """
         if not len(motion):
             return []
-        self._pieces.append(motion)
-        if np.isnan(self._next_s):
+        new = [getattr(motion, field.name) for field in fields(RigidMotion)]
+        if self._arrays:
+            new = [np.concatenate(both) for both in zip(self._arrays, new, strict=True)]
+        else:
             self._next_s = float(motion.time_s[0])
-        last_s = float(motion.time_s[-1])
-        if self._next_s + self._window_s > last_s + 1e-9:
-            return []
-        kept = joined(self._pieces)
-        found = []
-        while self._next_s + self._window_s <= last_s + 1e-9:
-            end_s = self._next_s + self._window_s
-            effort = read_effort(kept.between(self._next_s, end_s), self._model, self._own)
-            found.append((0.5 * (self._next_s + end_s), effort))
-            self._next_s += self._step_s
-        self._pieces = [kept.between(self._next_s, np.inf)]
+        self._arrays = tuple(new)
+        self._open_windows(float(motion.time_s[-1]))
+        found = self._read(len(motion))
+        while len(self._reading) > 1:
+            found += self._read(1)
         return found
 
+    def finish(self) -> list[tuple[float, Effort]]:
+        """Return the windows whose reading was not done yet; the movement is over."""
+        found = []
+        while self._reading:
+            found += self._read(1)
+        return found
 
-def joined(pieces: Sequence[RigidMotion]) -> RigidMotion:
-    """Return pieces of a movement as one; each follows the one before at the same steps."""
-    return RigidMotion(
-        *(
-            np.concatenate([getattr(piece, field.name) for piece in pieces])
-            for field in fields(RigidMotion)
-        )
-    )
+    def _open_windows(self, last_s: float) -> None:
+        """Begin to read the windows that are complete."""
+        while self._next_s + self._window_s <= last_s + 1e-9:
+            end_s = self._next_s + self._window_s
+            time_s = self._arrays[0]
+            last = int(np.searchsorted(time_s, end_s + 1e-9, side="right"))
+            window = RigidMotion(*(array[:last] for array in self._arrays))
+            middle_s = 0.5 * (self._next_s + end_s)
+            self._reading.append((middle_s, read_in_steps(window, self._model, self._own)))
+            self._next_s += self._step_s
+            first = int(np.searchsorted(time_s, self._next_s - 1e-9))
+            self._arrays = tuple(array[first:] for array in self._arrays)
+
+    def _read(self, steps: int) -> list[tuple[float, Effort]]:
+        """Do some steps of what there is to read."""
+        found = []
+        for _ in range(steps):
+            if not self._reading:
+                break
+            middle_s, reading = self._reading[0]
+            try:
+                next(reading)
+            except StopIteration as done:
+                found.append((middle_s, done.value))
+                self._reading.popleft()
+        return found

@@ -17,6 +17,7 @@ from laban.description import DESCRIPTION_NAMES, describe
 from laban.effort import LabanError
 from laban.model import NEUTRAL, POLES, effort_of, state_of
 from laban.own import FEWEST_TAKES, own_measure
+from laban.reader import Reader
 from laban.stillness import is_readable
 from laban.training import AxisReport, Training, check_labels, train
 from laban.windows import WINDOW_S
@@ -24,15 +25,21 @@ from smd.doodle import Doodle, Recording
 from smd.errors import DoodleError, RecordingError
 from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
-from smd.synthetic.efforts import SPREAD, LabelledTake, Spread, fourfold_takes
+from smd.synthetic.efforts import (
+    SPREAD,
+    LabelledTake,
+    Spread,
+    coarsely_tracked,
+    fourfold_takes,
+)
 
 SIMULATED_PEOPLE = 48
 SIMULATED_REPEATS = 4
 SIMULATED_SEED = 20191028
 """The simulated corpus of the shipped model: 48 people, 9 pairs of Efforts, 4 takes of each."""
 
-SHOWN = 10
-"""More features of a reader are counted; the model's file has them all."""
+SHOWN = 8
+"""So many of a reader's entries are named, those that weigh most; the model's file has them all."""
 
 ENOUGH_PERFORMERS, GOOD_ENOUGH = 8, 0.8
 """Below either, training says what to record more of."""
@@ -60,7 +67,7 @@ class Examples:
 
     Attributes
     ----------
-    descriptions : (n, 129), as `laban.description.describe` gives.
+    descriptions : (n, 132), as `laban.description.describe` gives.
     meant : (n, 4), as in `ManifestRow`.
     performers : n names.
     """
@@ -98,22 +105,25 @@ def windowed_examples(
     repeats: int = SIMULATED_REPEATS,
     seed: int = SIMULATED_SEED,
 ) -> Examples:
-    """Return `simulated_examples`, every other one seen through a sliding window.
+    """Return `simulated_examples`, every one by two trackers, every other one through a window.
 
-    The window lies anywhere in the take (the whole take, where that is shorter), so that Effort
-    over time is read by a model that knows what a movement without its beginning looks like.
+    The second tracker is the coarsest there is: the same movement is to read the same. The window
+    lies anywhere in the take (the whole take, where that is shorter), so that Effort over time is
+    read by a model that knows what a movement without its beginning looks like.
     """
     rng = np.random.default_rng([seed, 1])
 
     def seen() -> Iterator[tuple[LabelledTake, RigidMotion]]:
         for i, take in enumerate(fourfold_takes(people=people, repeats=repeats, seed=seed)):
-            motion = smooth(take.doodle)
-            room_s = float(motion.time_s[-1] - motion.time_s[0]) - WINDOW_S
+            motions = [smooth(take.doodle), smooth(coarsely_tracked(take.doodle, rng))]
+            time_s = motions[0].time_s
+            room_s = float(time_s[-1] - time_s[0]) - WINDOW_S
             if i % 2 and room_s > 0.0:
-                start_s = float(motion.time_s[0]) + rng.uniform(0.0, room_s)
-                window = motion.between(start_s, start_s + WINDOW_S)
-                motion = window if is_readable(window) else motion
-            yield take, motion
+                start_s = float(time_s[0]) + rng.uniform(0.0, room_s)
+                windows = [motion.between(start_s, start_s + WINDOW_S) for motion in motions]
+                motions = windows if all(map(is_readable, windows)) else motions
+            for motion in motions:
+                yield take, motion
 
     return _examples(seen())
 
@@ -303,8 +313,9 @@ def _readable_motion(doodle: Doodle) -> RigidMotion | None:
 
 def report_lines(training: Training) -> list[str]:
     """Return what a training came to, as lines for people."""
-    lines = []
-    for axis, part in training.model.axes.items():
+    lines: list[str] = []
+    model = training.model
+    for axis, part in model.axes.items():
         low, high = POLES[axis]
         alone, own = training.alone[axis], training.own[axis]
         lines += [
@@ -321,19 +332,27 @@ def report_lines(training: Training) -> list[str]:
                     f"  {word:>10}  {int(np.sum(told <= 0))}, {int(np.sum(told > 0))}, "
                     f"{told.mean():+.2f}"
                 )
-        for name, reader in (("alone", part.alone), ("with other takes", part.own)):
-            if reader is not None:
-                names = [DESCRIPTION_NAMES[column] for column in reader.entries.columns]
-                more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-                lines.append(f"  {name}: {reader.family}: {', '.join(names[:SHOWN])}{more}")
+        for name, reader in (("alone", model.alone), ("with other takes", model.own)):
+            members = reader.axes[axis].members.items()
+            lines += [
+                f"  {name}: {', '.join(f'{member} {share:.2f}' for member, share in members)}",
+                f"    weighs most: {', '.join(_heaviest(reader, axis))}",
+            ]
         lines += [f"  {advice}" for advice in _advice(alone, part.performers, (low, high))]
-    joint = training.model.joint
-    if joint is not None:
+    if model.alone.states is not None and model.own.states is not None:
         lines.append(
-            f"time and weight together: {100 * joint.alone.held_out_accuracy:.0f} % of the joint "
-            f"states right, {100 * joint.own.held_out_accuracy:.0f} % with other takes"
+            f"time and weight together: {100 * model.alone.states.held_out_accuracy:.0f} % of the "
+            f"joint states right, {100 * model.own.states.held_out_accuracy:.0f} % with other takes"
         )
     return lines
+
+
+def _heaviest(reader: Reader, axis: str) -> list[str]:
+    """Return the names of the entries and products that weigh most on an axis."""
+    entries = [DESCRIPTION_NAMES[column] for column in reader.entries.columns]
+    names = [*entries, *(" x ".join(entries[i] for i in pair) for pair in reader.entries.pairs)]
+    order = np.argsort(-np.abs(reader.axes[axis].classifier.weight), kind="stable")
+    return [names[i] for i in order[:SHOWN]]
 
 
 def accuracy_interval(right: int, count: int) -> tuple[float, float]:

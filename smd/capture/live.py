@@ -131,6 +131,7 @@ class _Follower:
         """Return the phrases that were not decided yet."""
         spans = self._spans.finish()
         self._read()
+        self._windows.extend(self._efforts.finish())
         return [self._decided(span) for span in spans]
 
     def _read(self) -> None:

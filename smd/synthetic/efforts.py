@@ -313,7 +313,32 @@ def fourfold_takes(
             )
             action = actions[played[k]]
             doodle = simulated_take(action, effort, player, rng, spread)
-            yield LabelledTake(action, effort, player.name, doodle)
+            meant = effort if _goes_somewhere(action) else replace(effort, space=None)
+            yield LabelledTake(action, meant, player.name, doodle)
+
+
+def coarsely_tracked(doodle: Doodle, rng: np.random.Generator) -> Doodle:
+    """Return what the coarsest tracker of `TRACKER_NOISE` makes of what another reported."""
+    noise_m, noise_rad = (TRACKER_NOISE[1] * n for n in (SPREAD.sensor_m, SPREAD.sensor_rad))
+    return with_noise(doodle, noise_m, noise_rad, rng)
+
+
+def with_noise(
+    doodle: Doodle, noise_m: float, noise_rad: float, rng: np.random.Generator
+) -> Doodle:
+    """Return a doodle with Gaussian noise on every sample: standard deviations along each axis."""
+    shape = doodle.position_m.shape
+    turn = quaternion_from_rotvec(rng.normal(0.0, noise_rad, shape))
+    return replace(
+        doodle,
+        position_m=doodle.position_m + rng.normal(0.0, noise_m, shape),
+        orientation_xyzw=multiply(doodle.orientation_xyzw, turn),
+    )
+
+
+def _goes_somewhere(action: str) -> bool:
+    """Return whether a gesture has a way, where Space could show: a turn on the spot has none."""
+    return any(np.any(stroke.move_m) for stroke in gesture(action).strokes)
 
 
 def _wandering(

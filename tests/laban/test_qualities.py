@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from laban.description import DESCRIPTION_NAMES, FAMILIES, describe
-from laban.qualities import QUALITIES, movement_qualities, spectral_arc_length
+from laban.body import body_extent_m
+from laban.description import DESCRIPTION_NAMES, FAMILIES, MULTIPLIED, describe
+from laban.qualities import QUALITIES, _percentile, movement_qualities, spectral_arc_length
 from laban.stillness import without_still_ends
 
 NAMES = [quality.name for quality in QUALITIES]
@@ -125,8 +126,66 @@ def test_a_body_that_never_moves_stays_whole(motion_of):
     assert np.isfinite(describe(still)).all()
 
 
+@pytest.mark.parametrize("rate", [0.5, 2.0, 6.0])
+def test_turning_on_the_spot_is_movement_of_the_whole_body(rate, motion_of, columns):
+    """Parts 0.1 m from the axis go as fast as a body that is carried at a tenth of the rate."""
+
+    def turning(t):
+        flat = 0.0 * t
+        q = np.stack([flat, np.sin(rate * t / 2), flat, np.cos(rate * t / 2)], axis=-1)
+        return [
+            q,
+            columns(flat, flat + rate, flat),
+            columns(flat, flat, flat),
+            0 * columns(t, t, t),
+        ]
+
+    turned = named(motion_of(lambda t: [np.zeros((len(t), 3))] * 4, turning))
+    assert np.exp(turned["log_rms_speed"]) == pytest.approx(0.1 * rate)
+    assert np.exp(turned["log_peak_over_mean_speed"]) == pytest.approx(1.0)
+    a = rate * 121 / 60.0  # about its mean direction an angle a of a circle leaves sinc(a / 2)
+    spread = 0.1 * np.sqrt(1.0 - np.sinc(a / (2.0 * np.pi)) ** 2)
+    assert body_extent_m(motion_of(lambda t: [np.zeros((len(t), 3))] * 4, turning)) == (
+        pytest.approx(spread, rel=0.01)
+    )
+
+
+def test_noise_hardly_turns_a_straight_path(motion_of, columns):
+    """A millimetre a sample, at 10 cm/s: the directions of samples would turn on and on."""
+    rng = np.random.default_rng(0)
+
+    def path(t):
+        position = columns(0.1 * t, 0.0 * t, 0.0 * t) + rng.normal(0.0, 3e-4, (len(t), 3))
+        return [position, columns(0.0 * t + 0.1, 0.0 * t, 0.0 * t), *[np.zeros((len(t), 3))] * 2]
+
+    assert np.exp(named(motion_of(path))["log_turning"]) - 0.3 < 2.0
+
+
+def test_the_10th_and_the_98th_percentile_are_numpys():
+    rng = np.random.default_rng(0)
+    for n in (4, 5, 61):
+        signal = rng.normal(size=n)
+        for share in (0.1, 0.9, 0.98):
+            assert _percentile(np.sort(signal), share) == pytest.approx(
+                np.percentile(signal, 100.0 * share)
+            )
+
+
+def test_a_stroke_that_is_stopped_dead_arrives_harder_than_a_gentle_one(motion_of, columns):
+    def stroke(power):
+        def path(t):
+            u, flat = np.clip(t, 0.0, 1.0), 0.0 * t
+            done = np.polynomial.Polynomial([0.0] * power + [1.0])
+            return [columns(done.deriv(k)(u) if k else done(u), flat, flat) for k in range(4)]
+
+        return motion_of(path, duration_s=1.0, rate_hz=100.0)
+
+    assert named(stroke(4))["log_arrival"] > named(stroke(2))["log_arrival"] + 0.3
+
+
 def test_families_name_entries_and_none_twice():
+    assert set(MULTIPLIED) <= set(FAMILIES["everything"])
     for names in FAMILIES.values():
         assert set(names) <= set(DESCRIPTION_NAMES)
         assert len(set(names)) == len(names)
-    assert len(set(DESCRIPTION_NAMES)) == len(DESCRIPTION_NAMES) == 129
+    assert len(set(DESCRIPTION_NAMES)) == len(DESCRIPTION_NAMES) == 132

@@ -19,6 +19,7 @@ def test_a_stream_says_what_the_whole_says_whatever_the_pieces(piece, model, ran
     for i in range(0, len(motion), piece):
         last = min(i + piece, len(motion)) - 1
         found += stream.push(motion.between(motion.time_s[i], motion.time_s[last]))
+    found += stream.finish()
     np.testing.assert_allclose([time_s for time_s, _ in found], curve.time_s)
     np.testing.assert_allclose([effort.time for _, effort in found], curve.values[:, 0])
 
@@ -44,4 +45,14 @@ def test_a_long_stream_does_not_grow(model, random_motion):
     stream = EffortStream(model, step_s=2.0)
     for i in range(len(motion)):
         stream.push(motion.between(motion.time_s[i], motion.time_s[i]))
-        assert sum(map(len, stream._pieces)) <= 60 * 2 + 2
+        assert len(stream._arrays[0]) <= 60 * 2 + 2
+        assert len(stream._reading) <= 1
+
+
+def test_a_reading_is_told_within_a_step_of_its_windows_end(model, random_motion):
+    motion = random_motion(np.random.default_rng(0), pace=0.2)
+    stream = EffortStream(model)
+    for i in range(len(motion)):
+        now_s = motion.time_s[i]
+        for middle_s, _ in stream.push(motion.between(now_s, now_s)):
+            assert middle_s + 0.5 <= now_s < middle_s + 0.75

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sklearn.naive_bayes import GaussianNB
 
-from laban.classifier import fit_naive_bayes, relevance, telling_range
+from laban.naive_bayes import fit_naive_bayes, fit_papers_method, relevance
 
 
 def examples(seed: int, n: int = 60, d: int = 7) -> tuple[np.ndarray, np.ndarray]:
@@ -65,21 +65,29 @@ def test_a_feature_that_never_changes_is_not_relevant():
     assert relevance(features, high)[2] == 0.0
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_within_its_range_a_features_evidence_grows_towards_the_higher_mean(seed):
-    features, high = examples(seed)
-    bayes = fit_naive_bayes(features, high)
-    lowest, highest = telling_range(bayes, features)
-    assert (lowest >= features.min(axis=0)).all()
-    assert (highest <= features.max(axis=0)).all()
-    evidence = bayes.log_odds_terms(np.linspace(lowest, highest, 50))
-    direction = np.sign(bayes.mean[1] - bayes.mean[0])
-    assert (np.diff(evidence, axis=0) * direction >= -1e-9).all()
+def test_the_papers_method_takes_the_fewest_features_that_tell_the_poles():
+    rng = np.random.default_rng(0)
+    high = np.tile([False, True], 60)
+    features = rng.normal(size=(120, 50))
+    features[:, 7] += 6.0 * high
+    features[:, 31] += 2.0 * high
+    people = np.repeat(np.arange(6), 20)
+    fitted = fit_papers_method(features, high, [people == p for p in range(6)])
+    assert fitted.columns[:2].tolist() == [7, 31][: len(fitted.columns)]
+    assert len(fitted.columns) < 10
+    theirs = GaussianNB().fit(features[:, fitted.columns], high)
+    np.testing.assert_array_equal(
+        fitted.log_odds(features) > 0, theirs.predict(features[:, fitted.columns])
+    )
 
 
-def test_both_class_means_are_within_the_range():
-    features, high = examples(3)
-    bayes = fit_naive_bayes(features, high)
-    lowest, highest = telling_range(bayes, features)
-    assert (lowest <= bayes.mean).all()
-    assert (bayes.mean <= highest).all()
+def test_what_is_left_out_chooses_how_many():
+    """A feature that is right about everybody but the ones who are left out is not enough."""
+    rng = np.random.default_rng(1)
+    high = np.tile([False, True], 60)
+    people = np.repeat(np.arange(6), 20)
+    features = rng.normal(0.0, 0.1, (120, 50))
+    features[:, :6] += 10.0 * (people[:, None] == np.arange(6)) * high[:, None]
+    features[:, 6] += 0.15 * high
+    fitted = fit_papers_method(features, high, [people == p for p in range(6)])
+    assert 6 in fitted.columns
