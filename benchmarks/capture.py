@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 from array import array
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -26,6 +27,7 @@ from laban import load_effort_model
 from smd.capture.beside import Beside
 from smd.capture.live import LiveRecognition
 from smd.capture.opening import open_source
+from smd.capture.source import Pose
 from smd.capture.take import rows_of
 from smd.doodle import Doodle
 from smd.formats import read_recording
@@ -163,47 +165,82 @@ def resident_mib() -> float:
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
+@dataclass(frozen=True)
+class Timing:
+    """Live recognition as `smd play` has it, timed; figures go to a file."""
+
+    figures: Path
+
+    def begun(self) -> Timed:
+        """Load what is needed."""
+        names = {"LHR-1": "left"}
+        return Timed(self, LiveRecognition(Recognizer(load_library()), load_effort_model(), names))
+
+
+class Timed:
+    """Recognises, and keeps how long after its frame each answer came (the clock is one)."""
+
+    def __init__(self, timing: Timing, live: LiveRecognition) -> None:
+        self._timing, self._live = timing, live
+        self._computing_s, self._deciding_s = array("d"), array("d")  # small, for memory's sake
+        self._held_mib: list[float] = []
+        self._phrases = 0
+
+    def follow(self, time_s: float, rows: dict[str, tuple[Pose | None, bool]]) -> None:
+        """Recognise one more frame."""
+        if len(self._computing_s) % 900 == 0:
+            self._held_mib.append(resident_mib())
+        decided = self._live.push(time_s, rows)
+        passed_s = time.perf_counter() - time_s
+        self._computing_s.append(passed_s)
+        if decided:
+            self._phrases += len(decided)
+            self._deciding_s.append(passed_s)
+
+    def tell(self) -> None:
+        """Write the figures."""
+        np.savez(
+            self._timing.figures,
+            computing_s=self._computing_s,
+            deciding_s=self._deciding_s,
+            held_mib=self._held_mib,
+            phrases=self._phrases,
+        )
+
+
 def delay(minutes: float) -> None:
     """Print how long a movement takes to become a phrase, as `smd play` does it."""
-    library = load_library()
     names = {"LHR-1": "left"}
-    live = LiveRecognition(Recognizer(library), load_effort_model(), names)
-    computing_s, deciding_s, times = array("d"), array("d"), array("d")  # small, for memory's sake
-    held_mib = []
-    phrases = 0
-
-    def understand(time_s: float, rows: dict[str, object]) -> None:
-        nonlocal phrases
-        decided = live.push(time_s, rows)  # type: ignore[arg-type]
-        passed_s = time.perf_counter() - time_s
-        computing_s.append(passed_s)
-        if decided:
-            phrases += len(decided)
-            deciding_s.append(passed_s)
-
-    with open_source("openvr", 90.0) as source, Beside() as beside:
-        for frame in source.poses():
-            times.append(frame.time_s)
-            if frame.time_s - times[0] >= 60.0 * minutes:
-                break
-            if len(times) % 900 == 1:
-                held_mib.append(resident_mib())
-            rows = rows_of(frame, names, hold_to_draw=True)
-            beside.do(lambda time_s=frame.time_s, rows=rows: understand(time_s, rows))  # type: ignore[misc]
+    times, held_mib = array("d"), []
+    with tempfile.TemporaryDirectory() as folder:
+        timing = Timing(Path(folder, "figures.npz"))
+        with Beside(timing.begun) as beside, open_source("openvr", 90.0) as source:
+            for frame in source.poses():
+                times.append(frame.time_s)
+                if frame.time_s - times[0] >= 60.0 * minutes:
+                    break
+                if len(times) % 900 == 1:
+                    held_mib.append(resident_mib())
+                beside.do("follow", frame.time_s, rows_of(frame, names, hold_to_draw=True))
+            beside.do("tell")
+        with np.load(timing.figures) as figures:
+            computing_ms, deciding_ms = (1e3 * figures[f"{w}_s"] for w in ("computing", "deciding"))
+            held, phrases = figures["held_mib"], int(figures["phrases"])
     steps_s = np.diff(times)
-    half, most = (1e3 * np.percentile(computing_s, share) for share in (50, 99))
+    half, most = (np.percentile(computing_ms, share) for share in (50, 99))
     print(
         f"{minutes:g} minutes of play, {phrases} phrases, one device: computing beside the horizon "
         f"of {HORIZON_S:g} s: median {half:.2f} ms, 99 % within {most:.1f} ms a frame; frames that "
-        f"decided a phrase: median {1e3 * np.median(deciding_s):.1f} ms, "
-        f"99 % within {1e3 * np.percentile(deciding_s, 99):.1f} ms"
+        f"decided a phrase: median {np.median(deciding_ms):.1f} ms, "
+        f"99 % within {np.percentile(deciding_ms, 99):.1f} ms"
     )
     print(
         f"  {len(times) - 1} frames of {round(minutes * 5400)}, the longest step "
         f"{1e3 * steps_s.max():.1f} ms; steps over 22.2 ms: {int(np.sum(steps_s > 2 / 90))}"
     )
-    after = held_mib[min(6, len(held_mib) - 1)]
-    print(f"  memory {after:.0f} MiB after a minute, {held_mib[-1]:.0f} MiB at the end")
+    for who, mib in (("recording", held_mib), ("understanding", held)):
+        after = mib[min(6, len(mib) - 1)]
+        print(f"  memory of {who} {after:.0f} MiB after a minute, {mib[-1]:.0f} MiB at the end")
 
 
 def main() -> None:

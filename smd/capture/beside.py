@@ -1,36 +1,66 @@
-"""Work beside the capture: in order, in a thread of its own, so that no frame waits for it."""
+"""Work beside the capture: in order, in a process of its own, so that no frame waits for it."""
 
 from __future__ import annotations
 
+import gc
+import multiprocessing
 import queue
-import sys
+import signal
 import threading
 from collections.abc import Callable
+from contextlib import suppress
+from multiprocessing.connection import Connection
 from types import TracebackType
+
+from smd.errors import CaptureError
 
 MOST_WAITING = 10_000
 """Jobs that may wait, two minutes of frames; a replay, which is fast, waits for them here."""
 
-SWITCH_S = 0.5e-3
-"""How long the capture waits for its turn while a job computes: several times a frame, once after
-each call to the runtime. Python's own 5 ms add up to lost frames."""
-
 
 class Beside:
-    """Does jobs one after another in a thread.
+    """Does jobs one after another in a process.
 
-    What a job raises is raised in the thread that gives the next one, or that closes.
+    A thread of this process would share Python's lock with the one that takes frames, which would
+    wait for it while the other computes, and is itself kept waiting for a core.
+
+    Parameters
+    ----------
+    work
+        Called in the process; returns the object whose methods do the jobs. It must come from a
+        module, with arguments that can be copied (it and the jobs are pickled, by this program for
+        itself).
+
+    What a job raises is raised where the next one is given, or at the end; jobs that follow it are
+    passed over. If this process dies, the other does what it was given, and ends.
     """
 
-    def __init__(self) -> None:
-        self._jobs: queue.Queue[Callable[[], None] | None] = queue.Queue(MOST_WAITING)
-        self._failed: BaseException | None = None
-        self._worker = threading.Thread(target=self._work, daemon=True)
-        self._worker.start()
+    def __init__(self, work: Callable[[], object]) -> None:
+        context = multiprocessing.get_context("spawn")  # on every system, and safe beside threads
+        theirs, self._jobs = context.Pipe(duplex=False)
+        self._answers, answers = context.Pipe(duplex=False)
+        self._process = context.Process(target=_serve, args=(work, theirs, answers), daemon=True)
+        # Ctrl-C is for this process: the other ends when it has done what it was given.
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        try:
+            self._process.start()
+        finally:
+            signal.signal(signal.SIGINT, handler)
+        theirs.close()
+        answers.close()
+        self._waiting: queue.Queue[tuple[str, tuple[object, ...]] | None]
+        self._waiting = queue.Queue(MOST_WAITING)
+        self._feeder = threading.Thread(target=self._feed, daemon=True)
+        self._feeder.start()
 
     def __enter__(self) -> Beside:
-        self._interval_s = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH_S)
+        """Wait until the process has begun to work."""
+        self._answers.poll(None)
+        try:
+            self._raise()
+        except BaseException:
+            self._end()
+            raise
         return self
 
     def __exit__(
@@ -39,25 +69,67 @@ class Beside:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        self._jobs.put(None)
-        self._worker.join()
-        sys.setswitchinterval(self._interval_s)
+        self._end()
         if error is None:
             self._raise()
 
-    def do(self, job: Callable[[], None]) -> None:
-        """Have a job done, after those that were given before."""
+    def do(self, job: str, *arguments: object) -> None:
+        """Have a method of the work called, after those that were given before."""
         self._raise()
-        self._jobs.put(job)
+        self._waiting.put((job, arguments))
+
+    def _end(self) -> None:
+        """Wait until all that was given is done."""
+        self._waiting.put(None)
+        self._feeder.join()
+        self._process.join()
+
+    def _feed(self) -> None:
+        """Hand on what waits: the pipe is short, and the process busy now and then."""
+        broken = False
+        while (job := self._waiting.get()) is not None:
+            if not broken:  # else the queue is only emptied
+                try:
+                    self._jobs.send(job)
+                except OSError:
+                    broken = True
+        with suppress(OSError):
+            self._jobs.close()
 
     def _raise(self) -> None:
-        if self._failed is not None:
-            raise self._failed
+        """Raise what has failed over there, or that it is gone."""
+        while self._answers.poll():
+            try:
+                failed = self._answers.recv()
+            except EOFError:
+                self._process.join()
+                if self._process.exitcode == 0 and self._waiting.empty():
+                    return
+                raise CaptureError(
+                    "what understands stories has stopped (exit code "
+                    f"{self._process.exitcode}); what was recorded is kept"
+                ) from None
+            if failed is not None:
+                raise failed
 
-    def _work(self) -> None:
-        while (job := self._jobs.get()) is not None:
-            if self._failed is None:  # after a failure the queue is only emptied
-                try:
-                    job()
-                except BaseException as error:
-                    self._failed = error
+
+def _serve(work: Callable[[], object], jobs: Connection, answers: Connection) -> None:
+    """Do the jobs that come; tell that work has begun, and what was raised first."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        worker = work()
+        gc.collect()
+        gc.freeze()  # going through all that is loaded would delay a job by some 20 ms
+        answers.send(None)
+        while True:
+            try:
+                job, arguments = jobs.recv()
+            except EOFError:
+                return
+            getattr(worker, job)(*arguments)
+    except BaseException as error:
+        with suppress(OSError):
+            answers.send(error)
+    with suppress(EOFError, OSError):
+        while True:  # nobody is to wait for a pipe that is full
+            jobs.recv()

@@ -32,14 +32,14 @@ def play_scene(registry, tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def run_smd(capsys):
-    """Run the command line in this process; return its exit code, output and error output."""
+def run_smd(capfd):
+    """Run the command line; return its exit code, output and error output."""
 
     def run(*arguments: object) -> tuple[int, str, str]:
-        capsys.readouterr()
+        capfd.readouterr()
         with pytest.raises(SystemExit) as exit_:
             main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
+        out, err = capfd.readouterr()
         return int(exit_.value.code or 0), out, err
 
     return run
