@@ -40,6 +40,9 @@ HORIZON_S = 0.5
 BLOCK_S = 0.25
 """The stream looks at what has come this often, and when a span falls due."""
 
+SOON_S = 0.1
+"""And this soon, where the next span to fall due is not over yet."""
+
 MEMORY_S = 4.0
 """Movement that nothing has explained for this long is given up."""
 
@@ -146,15 +149,18 @@ class RecognitionStream:
         final: list[Span] = []
         needed_s = settled_s
         due_s = next((run.end_s for run in runs[first:] if run.token != STILL), np.inf)
-        if due_s <= settled_s + BLOCK_S:  # now or before the next look: what is ready will not wait
+        if due_s <= settled_s + BLOCK_S + SOON_S:  # by the next look: what is ready will not wait
             segments = self._undecided(motion, runs, first)
             ends_s = [runs[segment.last - 1].end_s for segment in segments]
             count = sum(end_s <= settled_s for end_s in ends_s)
             if count:
                 final = list(self._spotter.named(motion, runs, segments[:count]))
                 self._decided_s = final[-1].end_s
-            if count < len(segments) and segments[count].last < len(runs):  # likely to stay so
-                self._ahead = motion, runs, segments[count : count + 1]
+            if count < len(segments):
+                if segments[count].last < len(runs):  # likely to stay so
+                    self._ahead = motion, runs, segments[count : count + 1]
+                else:  # it is to be named once it is over, and before it falls due
+                    self._look_s = min(self._look_s, settled_s + self._settling_s + SOON_S)
             if due_s <= settled_s:
                 due_s = np.inf
                 if count < len(segments):
