@@ -42,8 +42,7 @@ GROUPS = 5
 
 POWER = 0.25
 """Of the likelihood in a member's share: takes of one person are not independent, and their number
-not their worth. Between 0 (all alike) and 1 it is the best for ten simulated people of eight takes,
-by a little (docs/effort.md)."""
+not their worth. `benchmarks.effort_committee` compares powers where takes are few."""
 
 LEAST_SHARE = 0.01
 """A member with a smaller share is not heard at all, so that a model stays small."""

@@ -185,7 +185,7 @@ def _trained(
     scores = np.zeros((len(whose), len(STATES)))
     for out in folds(whose):
         entries, learned, states = _learned(descriptions, labelled, state, whose, against, ~out)
-        seen = _seen(entries, descriptions[out], whose[out])
+        seen = seen_in(entries, descriptions[out], whose[out])
         for axis, committee in learned.items():
             odds[axis][out] = committee.classifier.log_odds(seen)
             members[axis].append(committee.shares)
@@ -226,8 +226,8 @@ def _learned(
     """Learn from some takes: what is looked at, each axis, and the joint states."""
     descriptions, whose = descriptions[among], whose[among]
     typical = typical_of(descriptions, whose) if against else None
-    entries = _entries(descriptions, whose, typical)
-    seen = _seen(entries, descriptions, whose)
+    entries = entries_of(descriptions, whose, typical)
+    seen = seen_in(entries, descriptions, whose)
     axes = {}
     for axis, labels in labelled.items():
         goal = labels[among]
@@ -243,8 +243,12 @@ def _learned(
     return entries, axes, _one_decision(own, axes["time"].classifier, axes["weight"].classifier)
 
 
-def _entries(descriptions: FloatArray, whose: IntArray, typical: FloatArray | None) -> Entries:
-    """Return what is looked at, on the scale of these takes."""
+def entries_of(descriptions: FloatArray, whose: IntArray, typical: FloatArray | None) -> Entries:
+    """Return what is looked at of descriptions ``(n, 132)``, on the scale of these takes.
+
+    ``typical (132,)`` is the description of a person who is not known, where takes are read against
+    the performer's own; ``whose (n,)`` says which these are.
+    """
     seen = descriptions if typical is None else against_own(descriptions, whose, typical)
     seen = seen[:, _COLUMNS]
     centre, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-9
@@ -259,8 +263,11 @@ def _entries(descriptions: FloatArray, whose: IntArray, typical: FloatArray | No
     )
 
 
-def _seen(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
-    """Return entries and products of takes; against all the performer's takes, if they are so."""
+def seen_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
+    """Return entries and products ``(n, COUNT)`` of descriptions ``(n, 132)``.
+
+    Against all the performer's takes among them, ``whose (n,)``, if the entries are so.
+    """
     values = descriptions[:, entries.columns]
     if entries.typical is not None:
         values = against_own(values, whose, entries.typical)
