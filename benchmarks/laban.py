@@ -172,6 +172,7 @@ def judged(
                     ),
                     axis,
                 )
+                or 0.0
                 for i in labelled
             ]
             reports[axis] = AxisReport(np.array(reading), meant[labelled])
