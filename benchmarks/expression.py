@@ -115,7 +115,7 @@ def read_as_doodles(
     for key, found in descriptions.items():
         read = [effort_of(found[part], model) for part in parts if part in found]
         if len(read) == len(parts):
-            values = np.array([[getattr(one, axis) or 0.0 for axis in axes] for one in read])
+            values = np.array([[getattr(one, axis) for axis in axes] for one in read])
             odds[key] = np.arctanh(np.clip(values, -0.999, 0.999)).mean(axis=0)
     return odds
 

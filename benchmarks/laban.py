@@ -172,7 +172,6 @@ def judged(
                     ),
                     axis,
                 )
-                or 0.0
                 for i in labelled
             ]
             reports[axis] = AxisReport(np.array(reading), meant[labelled])

@@ -12,7 +12,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from laban.body import BODY_RADIUS_M
 from laban.features import FEATURES, MIN_SAMPLES, Feature, features_in_steps
 from laban.motion import FloatArray, RigidMotion
 from laban.qualities import QUALITIES, qualities_in_steps
@@ -114,11 +113,6 @@ MULTIPLIED: tuple[str, ...] = (
 """Entries whose products, two at a time, are looked at where there are takes enough: how much speed
 is sudden depends on how far the movement goes."""
 
-LEAST_WAY = 0.75
-"""A body has a way of its own from this share of what its parts go by turning (`laban.body`)."""
-
-_PATH, _ROTATION = (DESCRIPTION_NAMES.index(name) for name in ("log_path", "log_rotation"))
-
 _FLOOR = np.array([FLOORS[feature.unit] for feature in FEATURES])
 
 
@@ -140,15 +134,6 @@ def describe(motion: RigidMotion) -> FloatArray:
         If there are fewer samples.
     """
     return finished(described_in_steps(motion))
-
-
-def has_way(description: FloatArray) -> bool:
-    """Return whether a movement goes somewhere, so that its way may be straight or not.
-
-    What is turned on the spot draws a short way too, because it is held beside its middle.
-    """
-    path_m, rotation_rad = np.exp(description[[_PATH, _ROTATION]])
-    return bool(path_m >= LEAST_WAY * BODY_RADIUS_M * rotation_rad)
 
 
 def described_in_steps(motion: RigidMotion) -> Steps[FloatArray]:

@@ -7,12 +7,12 @@ module needs NumPy alone and is what live code loads.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
-from laban.description import described_in_steps, has_way
+from laban.description import described_in_steps
 from laban.effort import AXES, Effort, LabanError
 from laban.motion import FloatArray, RigidMotion
 from laban.own import OwnMeasure
@@ -84,9 +84,8 @@ class EffortModel:
 def read_effort(motion: RigidMotion, model: EffortModel, own: OwnMeasure | None = None) -> Effort:
     """Return the Effort of one span of movement.
 
-    Axes that the model was not trained for are None, and Space in what is turned on the spot. All
-    are where there is nothing to read: in fewer than `laban.features.MIN_SAMPLES` samples, and in a
-    body at rest.
+    Axes that the model was not trained for are None. All are where there is nothing to read: in
+    fewer than `laban.features.MIN_SAMPLES` samples, and in a body at rest.
 
     Parameters
     ----------
@@ -112,9 +111,8 @@ def read_in_steps(
 
 
 def effort_of(description: FloatArray, model: EffortModel, own: OwnMeasure | None = None) -> Effort:
-    """Return the Effort of a description ``(132,)``; without Space where there is no way."""
-    effort = model.reader(own).effort(description, own)
-    return effort if has_way(description) else replace(effort, space=None)
+    """Return the Effort of a description ``(132,)``."""
+    return model.reader(own).effort(description, own)
 
 
 def read_state(

@@ -66,33 +66,6 @@ def test_a_model_is_the_same_after_saving_and_loading(shipped, tmp_path):
         )
 
 
-def test_a_turn_on_the_spot_has_no_space_and_a_way_has(shipped, motion_of, columns):
-    """A body held 0.05 m beside the axis, turned by a half turn; then carried as well."""
-
-    def moved(carried_m):
-        def path(t):
-            a = np.pi * t / 2.0
-            wave = [np.cos(a), -np.sin(a), -np.cos(a), np.sin(a), np.cos(a)]
-            place = [
-                0.05 * (np.pi / 2) ** k * columns(wave[k], 0 * t, -wave[k + 1]) for k in range(4)
-            ]
-            place[0] = place[0] + columns(carried_m * t, 0 * t, 0 * t)
-            place[1] = place[1] + columns(0 * t + carried_m, 0 * t, 0 * t)
-            return place
-
-        def turning(t):
-            flat, a = 0 * t, np.pi * t / 4.0
-            still = columns(flat, flat, flat)
-            q = np.stack([flat, np.sin(a), flat, np.cos(a)], axis=-1)
-            return [q, columns(flat, flat + np.pi / 2.0, flat), still, still]
-
-        return read_effort(motion_of(path, turning), shipped)
-
-    assert moved(0.0).space is None
-    assert moved(0.0).time is not None
-    assert moved(0.5).space is not None
-
-
 def test_axes_that_were_not_trained_are_not_read(shipped, random_motion):
     alone = {"time": shipped.alone.axes["time"]}
     model = replace(

@@ -206,11 +206,10 @@ def test_the_shipped_model_tells_people_it_has_not_met():
     read = [effort_of(row, model) for row in examples.descriptions]
     for column, axis in enumerate(AXES):
         meant = examples.meant[:, column]
-        reading = np.array([getattr(effort, axis) for effort in read], dtype=np.float64)
-        assert (np.isnan(reading) <= np.isnan(meant)).mean() > 0.99  # what has a way is read
-        poles = (np.abs(meant) == 1.0) & ~np.isnan(reading)
+        reading = np.array([getattr(effort, axis) for effort in read])
+        poles = np.abs(meant) == 1.0
         assert np.mean((reading[poles] > 0) == (meant[poles] > 0)) > 0.85
-        neither = reading[(meant == 0) & ~np.isnan(reading)]
+        neither = reading[meant == 0]
         assert abs(neither.mean()) < 0.3
         assert reading[meant < 0].mean() < neither.mean() < reading[meant > 0].mean()
 
