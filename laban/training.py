@@ -9,7 +9,7 @@ theirs.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,12 +56,10 @@ class AxisReport:
     ----------
     reading : (n,) of each labelled take, by a reader that had not seen its performer.
     meant : (n,) -1 low pole, 1 high pole, 0 neither.
-    members : share of each member of the committee, the mean over performers left out.
     """
 
     reading: FloatArray
     meant: FloatArray
-    members: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def accuracy(self) -> float:
@@ -181,21 +179,19 @@ def _trained(
 ) -> tuple[Reader, dict[str, AxisReport]]:
     """Return what all takes teach, and how well that does on performers that were left out."""
     odds = {axis: np.full(len(whose), np.nan) for axis in labelled}
-    members: dict[str, list[Mapping[str, float]]] = {axis: [] for axis in labelled}
     scores = np.zeros((len(whose), len(STATES)))
     for out in folds(whose):
         entries, learned, states = _learned(descriptions, labelled, state, whose, against, ~out)
         seen = seen_in(entries, descriptions[out], whose[out])
         for axis, committee in learned.items():
             odds[axis][out] = committee.classifier.log_odds(seen)
-            members[axis].append(committee.shares)
         if states is not None:
             scores[out] = states.scores(seen)
     reports = {}
     for axis, goal in labelled.items():
         known = np.isfinite(goal)
         reading = np.array([reading_of(o) for o in odds[axis][known].tolist()])
-        reports[axis] = AxisReport(reading, goal[known], _mean_shares(members[axis]))
+        reports[axis] = AxisReport(reading, goal[known])
 
     entries, learned, states = _learned(
         descriptions, labelled, state, whose, against, np.ones(len(whose), bool)
@@ -305,13 +301,6 @@ def _sureness(scores: FloatArray, state: IntArray) -> float:
     scaled = FACTORS[:, None, None] * (scores - scores.max(axis=1, keepdims=True))
     chance = scaled[:, np.arange(len(state)), state] - np.log(np.exp(scaled).sum(axis=-1))
     return float(FACTORS[int(np.argmax(chance.sum(axis=-1)))])
-
-
-def _mean_shares(shares: Sequence[Mapping[str, float]]) -> dict[str, float]:
-    """Return the mean share of each member, the largest first."""
-    names = dict.fromkeys(name for one in shares for name in one)
-    mean = {name: sum(one.get(name, 0.0) for one in shares) / len(shares) for name in names}
-    return dict(sorted(mean.items(), key=lambda item: -item[1]))
 
 
 def _rounded_shares(shares: Mapping[str, float]) -> dict[str, float]:

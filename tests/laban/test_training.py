@@ -29,7 +29,6 @@ def test_what_tells_the_poles_apart_is_found():
     training = train(described, {"time": meant}, performers, trained_on="test")
     assert training.alone["time"].accuracy > 0.95
     assert sum(training.model.alone.axes["time"].members.values()) == pytest.approx(1, abs=0.01)
-    assert sum(training.alone["time"].members.values()) == pytest.approx(1)
     for description, pole in zip(described, meant, strict=True):
         assert effort_of(description, training.model).time * pole > 0.0
 

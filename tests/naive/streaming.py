@@ -9,7 +9,7 @@ import numpy as np
 from laban import RigidMotion
 from smd.doodle import Doodle
 from smd.recognition.recognizer import Span
-from smd.recognition.streaming import BLOCK_S, HORIZON_S, STEP_S, Spotter
+from smd.recognition.streaming import BLOCK_S, HORIZON_S, SOON_S, STEP_S, Spotter
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.smoothing import RATE_HZ, WINDOW_S, smooth
@@ -37,10 +37,16 @@ def spans_as_they_become_final(
         runs = tokenize(motion)
         first = next((i for i, run in enumerate(runs) if run.start_s > decided_s - 0.025), 0)
         spans: list[Span] = _spans(spotter, motion, runs)
+        count = len(runs)
         if any(span.first_run < first < span.last_run for span in spans):
             spans = _spans(spotter, motion, runs[first:])
+            count = len(runs) - first
         spans = [span for span in spans if span.start_s > decided_s - 0.025]
         moving_s = [run.end_s for run in runs[first:] if run.token != STILL]
+        later = [span for span in spans if span.end_s > settled_s]
+        is_near = bool(moving_s) and moving_s[0] <= settled_s + BLOCK_S + SOON_S
+        if is_near and later and later[0].last_run == count:  # it is not over yet
+            look_s = min(look_s, now_s + SOON_S)
         if moving_s and moving_s[0] > settled_s:
             look_s = min(look_s, moving_s[0] + settling_s)
             continue
