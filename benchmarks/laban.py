@@ -47,6 +47,9 @@ PEOPLE, REPEATS, SEED = 48, 4, SIMULATED_SEED + 1
 DIFFICULTIES = (0.5, 0.75, 1.0)
 """How far simulated people and takes differ, as a share of `SPREAD`."""
 
+NOISE, DRAWS = "noise of 1 mm and 0.5 degrees", 10
+"""What takes are measured worse by, and how often: one draw says little about 72 takes."""
+
 Classify = Callable[[FloatArray, NDArray[np.bool_], NDArray[np.int64], FloatArray], FloatArray]
 """Learns from rows, which are of the high pole and whose they are; returns log odds of others."""
 
@@ -240,7 +243,7 @@ def changed(doodle: Doodle, how: str, rng: np.random.Generator) -> Doodle:
         turn = quaternion_about([0.0, 1.0, 0.0], rng.uniform(-np.pi, np.pi))
         position = rotate(turn, position) + rng.normal(0.0, 2.0, 3)
         return replace(doodle, position_m=position, orientation_xyzw=multiply(turn, orientation))
-    if how == "noise of 1 mm and 0.5 degrees":
+    if how == NOISE:
         return with_noise(doodle, 1e-3, np.radians(0.5), rng)
     kept = np.unique(
         np.searchsorted(doodle.time_s, np.arange(doodle.time_s[0], doodle.time_s[-1], 1 / 60.0))
@@ -254,22 +257,64 @@ def changed(doodle: Doodle, how: str, rng: np.random.Generator) -> Doodle:
     )
 
 
+def flips(before: FloatArray, after: FloatArray, meant: FloatArray) -> str:
+    """Return the shares of decisions that differ: of those for a pole that was meant, and of all.
+
+    ``before (n, a)``, ``after (draws, n, a)`` and ``meant (n, a)``, which is as in `Examples`.
+    """
+    differ = (before > 0) != (after > 0)
+    of_poles = 100.0 * differ[:, np.abs(meant) == 1.0].mean(axis=1)
+    spread = f" ({of_poles.min():.1f} – {of_poles.max():.1f})" if len(of_poles) > 1 else ""
+    return (
+        f"flips {of_poles.mean():.1f} %{spread} where a pole was meant, "
+        f"{100.0 * differ.mean():.1f} % of all"
+    )
+
+
 def print_robustness(title: str, doodles: Sequence[Doodle], meant: FloatArray) -> None:
-    """Print by how much readings change, and how many decisions flip: those for a pole, and all.
+    """Print by how much the shipped model's readings change, and how many decisions flip.
 
     ``meant (n, 4)`` is as in `Examples`.
     """
     model, rng = load_effort_model(), np.random.default_rng(SEED)
     before = np.array([values(doodle, model) for doodle in doodles])
     print(f"{title}: {len(doodles)} takes, the shipped model")
-    for how in ("moved and turned", "noise of 1 mm and 0.5 degrees", "at 60 Hz"):
-        after = np.array([values(changed(doodle, how, rng), model) for doodle in doodles])
-        flips = (before > 0) != (after > 0)
-        print(
-            f"  {how:30} largest change {np.abs(after - before).max():.4f}, flips "
-            f"{100.0 * flips[np.abs(meant) == 1.0].mean():.1f} % where a pole was meant, "
-            f"{100.0 * flips.mean():.1f} % of all"
+    for how, draws in (("moved and turned", DRAWS), (NOISE, DRAWS), ("at 60 Hz", 1)):
+        after = np.array(
+            [[values(changed(d, how, rng), model) for d in doodles] for _ in range(draws)]
         )
+        largest = np.abs(after - before).max()
+        print(f"  {how:30} largest change {largest:.4f}, {flips(before, after, meant)}")
+
+
+def print_left_out_robustness(doodles: Sequence[Doodle], examples: Examples) -> None:
+    """Print how many decisions flip under noise, by models that the others' takes taught."""
+    rng = np.random.default_rng(SEED)
+    clean = examples.descriptions
+    noisy = np.array(
+        [[describe(smooth(changed(d, NOISE, rng))) for d in doodles] for _ in range(DRAWS)]
+    )
+    before = np.zeros((2, len(clean), len(AXES)))
+    after = np.zeros((2, DRAWS, len(clean), len(AXES)))
+    performers = np.asarray(examples.performers)
+    for person in np.unique(performers):
+        out = performers == person
+        others = Examples(clean[~out], examples.meant[~out], tuple(performers[~out]))
+        model = others.train(trained_on="benchmark").model
+        for known in (0, 1):
+            before[known, out] = _readings(clean[out], model, bool(known))
+            for draw in range(DRAWS):
+                after[known, draw, out] = _readings(noisy[draw, out], model, bool(known))
+    print(f"real people, each read by a model of the others, {NOISE}")
+    for known, title in enumerate(("performer unknown", "with the performer's takes")):
+        print(f"  {title:30} {flips(before[known], after[known], examples.meant)}")
+
+
+def _readings(descriptions: FloatArray, model: EffortModel, known: bool) -> list[list[float]]:
+    """Return the readings of one performer's takes, all axes; against them all if known."""
+    own = measure_of(descriptions) if known else None
+    efforts = [effort_of(description, model, own) for description in descriptions]
+    return [[getattr(effort, axis) for axis in AXES] for effort in efforts]
 
 
 def values(doodle: Doodle, model: EffortModel) -> list[float]:
@@ -347,6 +392,7 @@ def main() -> None:
         motions, doodles, examples = real_people()
         print_real(motions, examples)
         print_robustness("real people", doodles, examples.meant)
+        print_left_out_robustness(doodles, examples)
         print_times(max(motions, key=len), measure_of(examples.descriptions[:8]))
     else:
         print(f"data absent ({DATA})")
