@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from laban.body import body_extent_m, body_rate
+from laban.body import body_extent_m, body_rate, body_speed
 from laban.features import Feature
 from laban.motion import FloatArray, RigidMotion
 from laban.steps import Steps, finished
@@ -101,16 +101,20 @@ def movement_qualities(motion: RigidMotion) -> FloatArray:
 
 def qualities_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
     """Do what `movement_qualities` does, in steps."""
-    of_path = _of_path(motion)
+    turning_rad = _turning_rad(motion.position_m, motion.step_s)
+    yield
+    of_path = _of_path(motion, turning_rad)
+    yield
+    smoothness = spectral_arc_length(body_speed(motion), motion.step_s)
     yield
     of_speed = _of_speed(motion)
     yield
-    values = {**of_path, **of_speed}
+    values = {"spectral_arc_length": smoothness, **of_path, **of_speed}
     return np.array([values[quality.name] for quality in QUALITIES])
 
 
-def _of_path(motion: RigidMotion) -> dict[str, float]:
-    """Return the qualities of the path and of the rotation."""
+def _of_path(motion: RigidMotion, turning_rad: float) -> dict[str, float]:
+    """Return the qualities of the path, which turns by so much, and of the rotation."""
     position, step_s = motion.position_m, motion.step_s
     duration_s = step_s * len(motion)
     speed, rate = _length(motion.velocity_m_s), _length(motion.angular_velocity_rad_s)
@@ -123,7 +127,7 @@ def _of_path(motion: RigidMotion) -> dict[str, float]:
     from_start = position - position[0]
     reach_m = max(float(_length(from_start).max()), 1e-3)
     net_m = max(float(np.linalg.norm(from_start[-1])), 1e-3)
-    turning = _turning_rad(position, step_s) + 0.3
+    turning = turning_rad + 0.3
     rotation = mean_rate + 0.02
     return _logs(
         log_duration=duration_s,
@@ -143,10 +147,10 @@ def _of_path(motion: RigidMotion) -> dict[str, float]:
 
 
 def _of_speed(motion: RigidMotion) -> dict[str, float]:
-    """Return the qualities of the body's speed and of its derivatives."""
+    """Return the qualities of the body's speed and of its derivatives, but for the spectrum's."""
     step_s = motion.step_s
     duration_s = step_s * len(motion)
-    speed = body_rate(motion.velocity_m_s, motion.angular_velocity_rad_s)
+    speed = body_speed(motion)
     acceleration = body_rate(motion.acceleration_m_s2, motion.angular_acceleration_rad_s2)
     jerk = body_rate(motion.jerk_m_s3, motion.angular_jerk_rad_s3)
     rms_speed, rms_acceleration, rms_jerk = (
@@ -164,7 +168,6 @@ def _of_speed(motion: RigidMotion) -> dict[str, float]:
     peaks = 1 + int(np.count_nonzero(is_peak))
     arriving = acceleration[-max(round(ARRIVAL_S / step_s), 1) :]
     return {
-        "spectral_arc_length": spectral_arc_length(speed, step_s),
         "time_to_peak": float(np.argmax(even)) / (len(even) - 1),
         "slow_share": float(np.searchsorted(in_order, SLOW_SHARE * peak)) / len(speed),
         **_logs(
