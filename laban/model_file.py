@@ -22,7 +22,7 @@ from laban.reader import AxisReader, Entries, Reader, StateReader
 from laban.record import Record
 
 SCHEMA = "laban.effort_model"
-VERSION = 3
+VERSION = 4
 
 
 def load_effort_model(path: Path | str | None = None) -> EffortModel:

@@ -27,8 +27,15 @@ SLOW_SHARE = 0.2
 """Slow is below this share of the highest speed."""
 
 CHORD_S = 0.1
-"""The path's direction is that of a chord over this time, and the speed whose peaks are counted is
-its mean over this time: a tracker's noise turns neighbouring samples, and makes peaks of its own.
+"""The path's direction is that of a chord over this time, and accelerations, and the speed whose
+peaks are counted, are means over this time: a tracker's noise turns neighbouring samples, and makes
+peaks of its own.
+"""
+
+REST_M_S2 = 0.3
+"""Nearly twice the body acceleration, averaged over `CHORD_S`, that a body has at rest by a tracker
+whose noise is 1 mm and 0.5 degrees a sample (tests/smd/test_effort.py). It is added in quadrature,
+as noise adds: what is far below it is not told apart.
 """
 
 MOVING_SHARE, MOVING_M_S = 0.1, 0.02
@@ -48,9 +55,9 @@ QUALITIES: tuple[Feature, ...] = (
     Feature("log_turning_rate", "log rad/s", "log ((Θ + 0.3) / T)"),
     Feature("log_roundness", "", "log (σ_2 / σ_1 + 0.02), σ the path's principal spreads"),
     Feature("log_flatness", "", "log (σ_3 / σ_1 + 0.02)"),
-    Feature("log_rotation_rate", "log rad/s", "log (mean ‖ω‖ + 0.02)"),
-    Feature("log_rotation_over_speed", "log rad/m", "log ((mean ‖ω‖ + 0.02) / (mean ‖v‖ + 0.01))"),
-    Feature("log_rotation", "log rad", "log (∫ ‖ω‖ dt + 0.05)"),
+    Feature("log_rotation_rate", "log rad/s", "log (mean ‖ω‖ + 0.1)"),
+    Feature("log_rotation_over_speed", "log rad/m", "log ((mean ‖ω‖ + 0.1) / (mean ‖v‖ + 0.01))"),
+    Feature("log_rotation", "log rad", "log (∫ ‖ω‖ dt + 0.1)"),
     Feature("spectral_arc_length", "", "minus the length of the spectrum of s up to 10 Hz"),
     Feature("log_dimensionless_jerk", "", "log (∫ s''^2 dt T^3 / max s^2)"),
     Feature("log_submovements", "", "log (1 + peaks of s, averaged over 0.1 s)"),
@@ -69,11 +76,11 @@ QUALITIES: tuple[Feature, ...] = (
     Feature("log_speed_range", "", "log of the 10th percentile of s over the 90th"),
     Feature("log_speed_over_extent", "log 1/s", "log (mean s / E)"),
     Feature("log_acceleration_over_extent", "log 1/s^2", "log (rms s' / E)"),
-    Feature("log_arrival", "", "log ((rms s' of the last 0.25 s + 0.05) / (rms s' + 0.05))"),
+    Feature("log_arrival", "", "log (rms s' of the last 0.25 s / rms s')"),
 )
 """Each a number, in the order in which `movement_qualities` gives them: the path's, the rotation's
 and, of the whole body (`laban.body`), those of its speed s, acceleration s', jerk s'' and extent E,
-all RMS over its parts: s^2 = ‖v‖^2 + (0.1 m)^2 ‖ω‖^2."""
+all RMS over its parts: s^2 = ‖v‖^2 + (0.1 m)^2 ‖ω‖^2; s' of means over 0.1 s, at rest 0.3 m/s^2."""
 
 
 def movement_qualities(motion: RigidMotion) -> FloatArray:
@@ -128,7 +135,7 @@ def _of_path(motion: RigidMotion, turning_rad: float) -> dict[str, float]:
     reach_m = max(float(_length(from_start).max()), 1e-3)
     net_m = max(float(np.linalg.norm(from_start[-1])), 1e-3)
     turning = turning_rad + 0.3
-    rotation = mean_rate + 0.02
+    rotation = mean_rate + 0.1
     return _logs(
         log_duration=duration_s,
         log_path=path_m,
@@ -142,7 +149,7 @@ def _of_path(motion: RigidMotion, turning_rad: float) -> dict[str, float]:
         log_flatness=float(spread[2]) / longest + 0.02,
         log_rotation_rate=rotation,
         log_rotation_over_speed=rotation / (mean_speed + 0.01),
-        log_rotation=mean_rate * duration_s + 0.05,
+        log_rotation=mean_rate * duration_s + 0.1,
     )
 
 
@@ -151,18 +158,24 @@ def _of_speed(motion: RigidMotion) -> dict[str, float]:
     step_s = motion.step_s
     duration_s = step_s * len(motion)
     speed = body_speed(motion)
-    acceleration = body_rate(motion.acceleration_m_s2, motion.angular_acceleration_rad_s2)
-    jerk = body_rate(motion.jerk_m_s3, motion.angular_jerk_rad_s3)
-    rms_speed, rms_acceleration, rms_jerk = (
-        max(_rms(x), 1e-4) for x in (speed, acceleration, jerk)
+    reach = round(0.5 * CHORD_S / step_s)
+    acceleration = np.hypot(
+        body_rate(
+            _averaged(motion.acceleration_m_s2, reach),
+            _averaged(motion.angular_acceleration_rad_s2, reach),
+        ),
+        REST_M_S2,
     )
+    jerk = body_rate(motion.jerk_m_s3, motion.angular_jerk_rad_s3)
+    rms_speed, rms_jerk = max(_rms(speed), 1e-4), max(_rms(jerk), 1e-4)
+    rms_acceleration = _rms(acceleration)
     in_order = np.sort(speed)
     mean_speed, peak = max(float(speed.mean()), 1e-4), max(float(in_order[-1]), 1e-4)
     low, high = _percentile(in_order, 0.1), _percentile(in_order, 0.9)
-    peak_acceleration = max(_percentile(np.sort(acceleration), 0.98), 1e-4)
+    peak_acceleration = _percentile(np.sort(acceleration), 0.98)
     extent_m = max(body_extent_m(motion), 1e-4)
 
-    even = _averaged(speed, round(0.5 * CHORD_S / step_s))
+    even = _averaged(speed, reach)
     inner = even[1:-1]
     is_peak = (inner > even[:-2]) & (inner >= even[2:]) & (inner > SUBMOVEMENT_SHARE * peak)
     peaks = 1 + int(np.count_nonzero(is_peak))
@@ -186,7 +199,7 @@ def _of_speed(motion: RigidMotion) -> dict[str, float]:
             log_speed_range=(low + 0.01) / (high + 0.01),
             log_speed_over_extent=mean_speed / extent_m,
             log_acceleration_over_extent=rms_acceleration / extent_m,
-            log_arrival=(_rms(arriving) + 0.05) / (rms_acceleration + 0.05),
+            log_arrival=_rms(arriving) / rms_acceleration,
         ),
     }
 
@@ -212,11 +225,14 @@ def _turning_rad(position: FloatArray, step_s: float) -> float:
 
 
 def _averaged(signal: FloatArray, reach: int) -> FloatArray:
-    """Return the mean over ``reach`` samples to either side; without the ends that lack them."""
+    """Return the mean over ``reach`` samples to either side; without the ends that lack them.
+
+    ``signal (n,)`` or ``(n, k)``; a short one is returned as it is.
+    """
     width = 2 * reach + 1
     if len(signal) < width + 2:
         return signal
-    total = np.cumsum(np.concatenate([[0.0], signal]))
+    total = np.cumsum(np.concatenate([np.zeros_like(signal[:1]), signal]), axis=0)
     return np.asarray((total[width:] - total[:-width]) / width)
 
 

@@ -163,8 +163,8 @@ STATES = ("alone", "states")
     ("path", "value", "said"),
     [
         (("schema",), "other", r"schema: expected 'laban.effort_model', got 'other'"),
-        (("version",), 4, "version: expected 3, got 4, a newer version's$"),
-        (("version",), 2, "version: expected 3, got 2, an older version's; train it again$"),
+        (("version",), 5, "version: expected 4, got 5, a newer version's$"),
+        (("version",), 3, "version: expected 4, got 3, an older version's; train it again$"),
         (("version",), True, "version: got true or false"),
         (("seed",), "x", "seed: got a string"),
         (("trained_on",), None, "trained_on: got null"),

@@ -183,6 +183,25 @@ def test_a_stroke_that_is_stopped_dead_arrives_harder_than_a_gentle_one(motion_o
     assert named(stroke(4))["log_arrival"] > named(stroke(2))["log_arrival"] + 0.3
 
 
+def test_acceleration_is_the_chords_and_not_below_what_rest_has(motion_of, columns):
+    """Even acceleration is its own mean; shaking faster than a chord averages out."""
+
+    def path(t):
+        w, flat = 2.0 * np.pi * 10.0, 0.0 * t  # a chord is one whole swing
+        return [
+            columns(2.0 * t**2 - np.cos(w * t) / w**2, flat, flat),
+            columns(4.0 * t + np.sin(w * t) / w, flat, flat),
+            columns(4.0 + np.cos(w * t), flat, flat),
+            columns(-w * np.sin(w * t), flat, flat),
+        ]
+
+    found = named(motion_of(path, duration_s=1.0, rate_hz=400.0))
+    assert np.exp(found["log_rms_acceleration"]) == pytest.approx(np.hypot(4.0, 0.3), rel=0.01)
+    still = named(motion_of(lambda t: [np.zeros((len(t), 3))] * 4))
+    assert np.exp(still["log_rms_acceleration"]) == pytest.approx(0.3)
+    assert still["log_arrival"] == pytest.approx(0.0, abs=1e-12)
+
+
 def test_families_name_entries_and_none_twice():
     assert set(MULTIPLIED) <= set(FAMILIES["everything"])
     for names in FAMILIES.values():

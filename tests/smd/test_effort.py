@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from laban import AXES, Effort, LabanError, load_effort_model
+from laban.body import body_rate
 from laban.committee import PRODUCTS_RIDGE
-from laban.description import describe
+from laban.description import FLOORS, describe
 from laban.linear import fit_linear
 from laban.model import effort_of
+from laban.qualities import REST_M_S2
 from laban.training import against_own, train, typical_of
 from smd.doodle import Doodle, Recording
 from smd.effort import (
@@ -24,7 +26,7 @@ from smd.effort import (
 )
 from smd.errors import DoodleError, RecordingError
 from smd.smoothing import smooth
-from smd.synthetic.efforts import fourfold_takes, labelled_takes
+from smd.synthetic.efforts import fourfold_takes, labelled_takes, with_noise
 
 HEADER = "file,time,weight,space,flow,performer\n"
 
@@ -228,3 +230,26 @@ def test_real_people_are_told_apart_by_a_model_of_other_real_people(shared_data)
     assert training.model.alone.states is None  # each take carries one pole
     for axis, least in (("space", 0.75), ("flow", 0.65)):
         assert training.own[axis].accuracy >= least
+
+
+@pytest.mark.parametrize("rate_hz", [60.0, 100.0])
+def test_the_floors_are_about_what_a_noisy_tracker_reports_of_a_body_at_rest(rate_hz):
+    n = 6000
+    still = Doodle(np.arange(n) / rate_hz, np.zeros((n, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (n, 1)))
+    motion = smooth(with_noise(still, 1e-3, np.radians(0.5), np.random.default_rng(0)))
+    signals = {
+        "m/s": motion.velocity_m_s,
+        "m/s^2": motion.acceleration_m_s2,
+        "m/s^3": motion.jerk_m_s3,
+        "rad/s": motion.angular_velocity_rad_s,
+        "rad/s^2": motion.angular_acceleration_rad_s2,
+        "rad/s^3": motion.angular_jerk_rad_s3,
+    }
+    for unit, signal in signals.items():
+        assert 1 / 1.6 < FLOORS[unit] / np.sqrt(np.mean(signal**2)) < 1.6, unit
+    window = np.ones(7) / 7.0  # 0.1 s of 60 samples a second
+    linear, angular = (
+        np.stack([np.convolve(column, window, "valid") for column in signal.T], axis=1)
+        for signal in (motion.acceleration_m_s2, motion.angular_acceleration_rad_s2)
+    )
+    assert 1.5 < REST_M_S2 / np.sqrt(np.mean(body_rate(linear, angular) ** 2)) < 2.0
