@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.laban import SEED, real_people, simulated, spread_at
-from laban.committee import MEMBERS, folds, temperature
+from laban.committee import MEMBERS, folds, held_out_odds, temperature
 from laban.linear import Linear
 from laban.motion import FloatArray
 from laban.training import entries_of, seen_in, typical_of
@@ -51,9 +51,8 @@ def read(seen: FloatArray, goal: FloatArray, whose: IntArray, asked: FloatArray)
     losses: dict[str, float] = {}
     fitted: dict[str, Linear] = {}
     for name in CHOICES["these and naive Bayes"]:
-        member, odds = MEMBERS[name], np.zeros(len(goal))
-        for left in out:
-            odds[left] = member.learned(seen[~left], goal[~left]).log_odds(seen[left])
+        member = MEMBERS[name]
+        odds = held_out_odds(member, seen, goal, out)
         factors[name], losses[name] = temperature(odds, goal)
         fitted[name] = member.learned(seen, goal)
     found: Readings = {}

@@ -290,29 +290,29 @@ def print_robustness(title: str, doodles: Sequence[Doodle], meant: FloatArray) -
 def print_left_out_robustness(doodles: Sequence[Doodle], examples: Examples) -> None:
     """Print how many decisions flip under noise, by models that the others' takes taught."""
     rng = np.random.default_rng(SEED)
-    clean = examples.descriptions
-    noisy = np.array(
-        [[describe(smooth(changed(d, NOISE, rng))) for d in doodles] for _ in range(DRAWS)]
-    )
-    before = np.zeros((2, len(clean), len(AXES)))
-    after = np.zeros((2, DRAWS, len(clean), len(AXES)))
+    noisy = [[describe(smooth(changed(d, NOISE, rng))) for d in doodles] for _ in range(DRAWS)]
+    described = np.array([examples.descriptions, *noisy])
+    readings = np.zeros((2, *described.shape[:2], len(AXES)))  # unknown, known; clean, then draws
     performers = np.asarray(examples.performers)
     for person in np.unique(performers):
         out = performers == person
-        others = Examples(clean[~out], examples.meant[~out], tuple(performers[~out]))
+        others = Examples(described[0, ~out], examples.meant[~out], tuple(performers[~out]))
         model = others.train(trained_on="benchmark").model
-        for known in (0, 1):
-            before[known, out] = _readings(clean[out], model, bool(known))
-            for draw in range(DRAWS):
-                after[known, draw, out] = _readings(noisy[draw, out], model, bool(known))
+        for seen, takes in enumerate(described[:, out]):
+            readings[:, seen, out] = [
+                _readings(takes, model, own) for own in (None, measure_of(takes))
+            ]
     print(f"real people, each read by a model of the others, {NOISE}")
-    for known, title in enumerate(("performer unknown", "with the performer's takes")):
-        print(f"  {title:30} {flips(before[known], after[known], examples.meant)}")
+    for title, (before, *after) in zip(
+        ("performer unknown", "with the performer's takes"), readings, strict=True
+    ):
+        print(f"  {title:30} {flips(before, np.array(after), examples.meant)}")
 
 
-def _readings(descriptions: FloatArray, model: EffortModel, known: bool) -> list[list[float]]:
-    """Return the readings of one performer's takes, all axes; against them all if known."""
-    own = measure_of(descriptions) if known else None
+def _readings(
+    descriptions: FloatArray, model: EffortModel, own: OwnMeasure | None
+) -> list[list[float]]:
+    """Return the readings of descriptions ``(n, 132)``, on all axes."""
     efforts = [effort_of(description, model, own) for description in descriptions]
     return [[getattr(effort, axis) for axis in AXES] for effort in efforts]
 

@@ -154,7 +154,7 @@ def convened(seen: FloatArray, goal: FloatArray, whose: IntArray) -> Committee:
     for name, member in MEMBERS.items():
         if len(goal) < member.least_takes:
             continue
-        odds[name] = _held_out_odds(member, seen, goal, out)
+        odds[name] = held_out_odds(member, seen, goal, out)
         factors[name], losses[name] = temperature(odds[name], goal)
     best = min(losses.values())
     share = {name: float(np.exp(POWER * (best - loss))) for name, loss in losses.items()}
@@ -187,7 +187,7 @@ def temperature(log_odds: FloatArray, goal: FloatArray) -> tuple[float, float]:
     return float(FACTORS[best]), float(loss[best])
 
 
-def _held_out_odds(
+def held_out_odds(
     member: Member, seen: FloatArray, goal: FloatArray, out: list[BoolArray]
 ) -> FloatArray:
     """Return a member's log odds of each take, its performer left out."""

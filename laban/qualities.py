@@ -112,9 +112,10 @@ def qualities_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
     yield
     of_path = _of_path(motion, turning_rad)
     yield
-    smoothness = spectral_arc_length(body_speed(motion), motion.step_s)
+    speed = body_speed(motion)
+    smoothness = spectral_arc_length(speed, motion.step_s)
     yield
-    of_speed = _of_speed(motion)
+    of_speed = _of_speed(motion, speed)
     yield
     values = {"spectral_arc_length": smoothness, **of_path, **of_speed}
     return np.array([values[quality.name] for quality in QUALITIES])
@@ -153,11 +154,10 @@ def _of_path(motion: RigidMotion, turning_rad: float) -> dict[str, float]:
     )
 
 
-def _of_speed(motion: RigidMotion) -> dict[str, float]:
+def _of_speed(motion: RigidMotion, speed: FloatArray) -> dict[str, float]:
     """Return the qualities of the body's speed and of its derivatives, but for the spectrum's."""
     step_s = motion.step_s
     duration_s = step_s * len(motion)
-    speed = body_speed(motion)
     reach = round(0.5 * CHORD_S / step_s)
     acceleration = np.hypot(
         body_rate(
