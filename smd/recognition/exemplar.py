@@ -11,7 +11,7 @@ import numpy as np
 from smd.errors import DoodleError
 from smd.geometry.arrays import FloatArray, frozen_array
 from smd.recognition.alignment import distance_table
-from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits, fitted
+from smd.recognition.traits import COURSES, FLOORS, MEASURES, SAMPLES, Traits, fitted
 
 BAND = 0.25
 """How far warping may shift, as a share of the gesture."""
@@ -45,11 +45,14 @@ class Exemplar:
     measures : (n, 4), logarithms of how long, how large, how far and how much turned each is.
     apart : (n, 4), from each example's courses to the nearest other example's; empty ``(0, 4)``
         where n is 1.
+    background : what movement that means nothing costs, seen as the action, as a logarithm
+        (`smd.recognition.background`); None where it was not weighed yet.
     """
 
     courses: Mapping[str, FloatArray]
     measures: FloatArray
     apart: FloatArray
+    background: float | None = None
     scale: FloatArray = field(init=False)
     centre: FloatArray = field(init=False)
     spread: FloatArray = field(init=False)
@@ -88,9 +91,16 @@ class Exemplar:
     def __len__(self) -> int:
         return len(self.measures)
 
+    @property
+    def duration_s(self) -> float:
+        """How long the action usually takes."""
+        return float(np.exp(self.centre[MEASURES.index("duration")]) - FLOORS[0])
+
     def to_arrays(self) -> dict[str, FloatArray]:
         """Return plain arrays by name, from which `from_arrays` makes the same again."""
-        return {**self.courses, "measures": self.measures, "apart": self.apart}
+        arrays = {**self.courses, "measures": self.measures, "apart": self.apart}
+        known = {} if self.background is None else {"background": np.array(self.background)}
+        return {**arrays, **known}
 
     @classmethod
     def from_arrays(cls, arrays: Mapping[str, FloatArray]) -> Exemplar:
@@ -108,6 +118,7 @@ class Exemplar:
             courses={name: arrays[name] for name in COURSES},
             measures=arrays["measures"],
             apart=arrays["apart"],
+            background=float(arrays["background"]) if "background" in arrays else None,
         )
 
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray
-from smd.recognition.bank import Bank, least_costs_of_parts
+from smd.geometry.arrays import BoolArray, FloatArray
+from smd.recognition.bank import Bank
 from smd.recognition.costs import RunCosts
 from smd.recognition.tokens import TokenRun
 
@@ -57,45 +57,32 @@ def explaining(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> list[P
     return found
 
 
-def between_rests(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> list[Proposal]:
-    """Return, for every action, each stretch from one rest to another, a few strokes long.
+def rest_to_rest(is_still: BoolArray) -> list[tuple[int, int]]:
+    """Return each stretch of runs from one rest to another, a few strokes long.
 
     A pattern learned from three examples does not know all ways to draw its action, and where
     they fall short, a rest still tells where a gesture begins and ends.
     """
-    read = prices.of_reading(bank, runs)
-    moving = ~np.asarray(prices.is_still)
-    steps = np.diff(moving.astype(np.int8), prepend=0, append=0)
+    steps = np.diff((~is_still).astype(np.int8), prepend=0, append=0)
     firsts, lasts = np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()
-    parts = [
-        (first, last) for i, first in enumerate(firsts) for last in lasts[i : i + MOST_STROKES]
-    ]
-    costs = least_costs_of_parts(bank, parts, read=read, skip=prices.skip).tolist()
-    return [
-        Proposal(action, first, last, distance)
-        for (first, last), distances in zip(parts, costs, strict=True)
-        for action, distance in enumerate(distances)
-    ]
+    return [(first, last) for i, first in enumerate(firsts) for last in lasts[i : i + MOST_STROKES]]
 
 
-def without_stir(found: Sequence[Proposal], runs: Sequence[TokenRun]) -> list[Proposal]:
-    """Return the proposals without what the hand hardly stirs at their ends, each stretch once.
+def without_stir(
+    stretches: Sequence[tuple[int, int]], runs: Sequence[TokenRun]
+) -> list[tuple[int, int]]:
+    """Return stretches without what the hand hardly stirs at their ends.
 
     That is still or below `STIR`: a rest that is not quite one must not move where a gesture
-    begins and ends. Of an action's proposals for one stretch the nearest stays.
+    begins and ends.
     """
     extent = [run.travel_heights + run.turn_rad for run in runs]
-    meant: dict[tuple[int, int], tuple[int, int]] = {}
-    for whole in dict.fromkeys((one.first, one.last) for one in found):
-        first, last = whole
+    meant = []
+    for first, last in stretches:
         least = STIR * max(extent[first:last])
         while extent[first] < least:
             first += 1
         while extent[last - 1] < least:
             last -= 1
-        meant[whole] = first, last
-    tight: dict[tuple[int, int, int], float] = {}
-    for action, first, last, distance in found:
-        stretch = (action, *meant[first, last])
-        tight[stretch] = min(distance, tight.get(stretch, np.inf))
-    return [Proposal(*stretch, distance) for stretch, distance in tight.items()]
+        meant.append((first, last))
+    return meant

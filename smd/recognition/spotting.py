@@ -11,37 +11,43 @@ import numpy as np
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.geometry.arrays import FloatArray
+from smd.recognition.acceptance import Intent, accepted_cost
 from smd.recognition.action import Action
+from smd.recognition.background import weighed
 from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, Costs, RunCosts, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import learn_pattern
-from smd.recognition.proposals import Proposal, between_rests, explaining, without_stir
+from smd.recognition.proposals import Proposal, explaining, rest_to_rest, without_stir
 from smd.recognition.recognizer import Span, TokenSpotter, with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.streaming import RecognitionStream
+from smd.recognition.stretches import are_alike_long, dense_stretches
 from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of, traits_of_parts
-from smd.recognition.verification import GLANCE, TERMS, WRONG, verification_of
+from smd.recognition.verification import GLANCE, TERMS, WRONG, Verification
 from smd.smoothing import smooth
 
 UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
 """What an action without examples costs: as much as a fair fit to examples, and more with the
 share of tokens that are wrong."""
 
-ACTION, UNEXPLAINED = 0.3, 20.0
-"""What seeing an action costs, and what a second of movement costs that is left unexplained. That
-is more than any gesture within its limit costs: what looks like an action is taken for one, and
-what does not is rejected by the limit."""
+TOGETHER = 1024
+"""Stretches whose courses are held in memory at a time."""
 
 WORTH_NAMING = 2.0
 """An action that costs more than so many times its limit is no alternative to another one."""
 
-Fits: TypeAlias = dict[tuple[int, float, float], float]
-"""How well stretches fit an action's examples, by action, start and end in seconds."""
+Fits: TypeAlias = dict[tuple[float, float, bool], FloatArray]
+"""How unlike actions' examples stretches are, tokens apart, ``(a,)``, by start and end in seconds
+and whether only their lengths speak for them; infinite where that is more than an action may
+cost."""
+
+Stretch: TypeAlias = tuple[int, int, bool]
+"""A stretch's first run, the one after its last, and whether only its length speaks for it."""
 
 Terms: TypeAlias = dict[tuple[float, float], FloatArray]
 """What stretches are weighed by, tokens apart, ``(a, 9)`` for the actions with examples, by start
@@ -65,12 +71,14 @@ class Match:
     action : its name; None for no action at all.
     distance : what it costs to see the gesture so; for None, what no action may cost.
     confidence : in [0, 1], adding up to 1 over all matches of a gesture.
+    most : what the action may cost to be accepted; infinite for None.
     terms : what the distance is made of, by name, weights included; empty for None.
     """
 
     action: str | None
     distance: float
     confidence: float
+    most: float = np.inf
     terms: tuple[tuple[str, float], ...] = ()
 
 
@@ -105,7 +113,9 @@ def learn_action(
         traits_of(smooth(doodle).between(*span), figure_height_m=figure_height_m)
         for doodle, span in zip(doodles, learned.spans_s, strict=True)
     ]
-    return Action(name, learned.pattern, learned_from=learned.names, exemplar=exemplar_of(examples))
+    return Action(
+        name, learned.pattern, learned_from=learned.names, exemplar=weighed(exemplar_of(examples))
+    )
 
 
 class Recognizer:
@@ -122,7 +132,10 @@ class Recognizer:
     token_costs
         What it costs to take one token for another; the paper's unit costs if absent.
     tolerance
-        Factor on every action's limit: below 1 more is rejected, above it less.
+        Factor on what every action may cost: below 1 more is rejected, above it less.
+    intent
+        Whether movement is meant, whatever doodles say; by default a doodle that says when the
+        user drew was drawn, and any other is free.
     """
 
     def __init__(
@@ -133,16 +146,28 @@ class Recognizer:
         costs: Costs = DEFAULT_COSTS,
         token_costs: TokenCosts | None = None,
         tolerance: float = 1.0,
+        intent: Intent | None = None,
     ) -> None:
         every = actions if isinstance(actions, Iterable) else actions.actions
-        patterns = {action.name: action.pattern for action in every if action.pattern}
-        exemplars = {action.name: action.exemplar for action in every if action.pattern}
-        self.names = tuple(patterns)
-        self._bank = compile_library(patterns, token_costs)
-        self._verification = verification_of(
-            [exemplars[name] for name in self.names], tolerance=tolerance
+        drawable = [action for action in every if action.pattern]
+        exemplars = [one.exemplar and weighed(one.exemplar) for one in drawable]
+        self.names = tuple(action.name for action in drawable)
+        self.intent = intent
+        self._bank = compile_library(
+            {action.name: action.pattern for action in drawable if action.pattern}, token_costs
         )
-        self._verified = np.array([bool(one) for one in self._verification.exemplars], dtype=bool)
+        self._verification = Verification(tuple(exemplars))
+        self._verified = np.array([bool(one) for one in exemplars], dtype=bool)
+        self._durations_s = np.array([one.duration_s if one else np.nan for one in exemplars])
+        background = np.array([one.background if one else np.nan for one in exemplars], float)
+        self._most = {
+            each: np.where(
+                self._verified,
+                accepted_cost(background, each, tolerance=tolerance),
+                UNVERIFIED + UNVERIFIED_WRONG,
+            )
+            for each in Intent
+        }
         self._figure_height_m = figure_height_m
         self._costs = costs
         self._tokens = TokenSpotter(self._bank, costs)  # where there are no examples
@@ -162,7 +187,8 @@ class Recognizer:
         moving = [i for i, run in enumerate(runs) if run.token != STILL]
         if not moving or not self.names:
             return [Match(None, 0.0, 1.0)]
-        return self._matches(motion, runs, [(moving[0], moving[-1] + 1)], np.inf)[0]
+        whole = (moving[0], moving[-1] + 1)
+        return self._matches(motion, runs, [whole], np.inf, Intent.DRAWN)[0]
 
     def spot(self, doodle: Doodle) -> list[Span]:
         """Find the actions in a doodle, in time order.
@@ -173,15 +199,20 @@ class Recognizer:
             If the doodle is too short to be smoothed.
         """
         motion = smooth(doodle)
-        return self.spot_runs(motion, self.runs_of(doodle, motion))
+        return self.spot_runs(motion, self.runs_of(doodle, motion), self.intent_of(doodle))
 
-    def stream(self, listener: Callable[[RigidMotion], None] | None = None) -> RecognitionStream:
+    def stream(
+        self,
+        listener: Callable[[RigidMotion], None] | None = None,
+        *,
+        intent: Intent | None = None,
+    ) -> RecognitionStream:
         """Return what finds the actions while a doodle is being drawn, sample by sample.
 
         The listener is called with each piece of smoothed motion.
         """
         return RecognitionStream(
-            _Remembering(self), figure_height_m=self._figure_height_m, listener=listener
+            _Remembering(self, intent), figure_height_m=self._figure_height_m, listener=listener
         )
 
     def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
@@ -189,24 +220,40 @@ class Recognizer:
         drawing = doodle.drawing_at(motion.time_s)
         return tokenize(motion, figure_height_m=self._figure_height_m, drawing=drawing)
 
-    def spot_runs(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Span]:
+    def intent_of(self, doodle: Doodle) -> Intent:
+        """Return whether the movement of a doodle is taken to be meant."""
+        said = Intent.FREE if doodle.drawing is None else Intent.DRAWN
+        return self.intent or said
+
+    def spot_runs(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], intent: Intent | None = None
+    ) -> list[Span]:
         """Find the actions in a motion that is cut into tokens already."""
-        return self.named(motion, runs, self.chosen(motion, runs))
+        return self.named(motion, runs, self.chosen(motion, runs, intent), intent)
 
     def chosen(
-        self, motion: RigidMotion, runs: Sequence[TokenRun], known: Fits | None = None
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        intent: Intent | None = None,
+        known: Fits | None = None,
     ) -> list[Segment]:
         """Choose the stretches of runs that are actions, in time order.
 
-        The automata propose, for each action and each end, the stretch that explains most. Each
-        proposal is weighed by its tokens and against the action's examples, and left aside where
-        it costs more than the action's limit. Of the rest those are chosen that do not overlap
-        and cost least, each a second of movement, all movement between them included.
+        Stretches come from the automata, which propose for each action and each end the one that
+        explains most, and from rest to rest. Where nothing says that movement is meant, hands
+        hardly rest, and stretches come from everywhere besides, at the lengths that actions have.
+        Each is weighed by its tokens and against examples, and left aside where it costs more
+        than an action may. A stretch gains, a second of movement, the logarithm of how many times
+        less it costs than it may; of those that do not overlap the ones are chosen that gain most
+        together.
 
         Parameters
         ----------
         motion, runs
             Of one doodle, or of what is there of it.
+        intent
+            Whether the movement is meant; by default the recognizer's own, or free.
         known
             How well stretches fit examples, where that is known, and where it is written down:
             a stretch does not change when more of the doodle comes.
@@ -214,109 +261,135 @@ class Recognizer:
         if not self._verified.any():
             return self._tokens.chosen(motion, runs)
         prices = run_costs(runs, self._costs)
-        found = explaining(self._bank, runs, prices)
-        found += between_rests(self._bank, runs, prices)
-        proposed = without_stir(found, runs)
-        cost = self._cost(proposed, motion, runs, prices, {} if known is None else known)
-        accepted = np.flatnonzero(np.isfinite(cost)).tolist()
+        intent = intent or self.intent or Intent.FREE
+        most = self._most[intent]
+        proposed = explaining(self._bank, runs, prices)
+        stretches = self._stretches(proposed, runs, prices, intent)
+        cost = self._fits(stretches, motion, runs, most, {} if known is None else known)
+        some = np.flatnonzero(np.isfinite(cost).any(axis=1))
+        parts = [stretches[i][:2] for i in some.tolist()]
+        cost[some] += WRONG * self._wrong(parts, runs, prices)
+        self._add_unverified(cost, stretches, proposed, runs, prices)
+        share = cost / most
+        action = share.argmin(axis=1) if len(share) else np.zeros(0, np.int64)
+        least = share.min(axis=1, initial=np.inf)
+        accepted = np.flatnonzero(least < 1.0)
         movement_s = np.array([run.end_s - run.start_s for run in runs]) * ~prices.is_still
-        explained_s = np.concatenate([[0.0], np.cumsum(movement_s)])
-        first = [proposed[i].first for i in accepted]
-        last = [proposed[i].last for i in accepted]
-        weight = ACTION + cost[accepted] * (explained_s[last] - explained_s[first])
-        best = best_cut(first, last, weight.tolist(), UNEXPLAINED * movement_s)
-        return with_loose_ends([Segment(*proposed[accepted[i]][:3]) for i in best], runs)
+        until_s = np.concatenate([[0.0], np.cumsum(movement_s)])
+        first, last, _ = np.array(stretches, np.int64).reshape(-1, 3)[accepted].T
+        loss = np.log(least[accepted]) * (until_s[last] - until_s[first])
+        best = best_cut(first.tolist(), last.tolist(), loss.tolist(), np.zeros(len(runs)))
+        return [Segment(int(action[accepted[i]]), int(first[i]), int(last[i])) for i in best]
 
     def named(
         self,
         motion: RigidMotion,
         runs: Sequence[TokenRun],
         segments: Sequence[Segment],
+        intent: Intent | None = None,
         known: Terms | None = None,
     ) -> list[Span]:
         """Return the spans of chosen stretches, with what else each could be.
 
-        Each is of the action that it costs least to see there, of those within their limit.
+        Each is of the action that it costs least to see there, of those that may cost so much.
         What they are weighed by is taken from ``known`` where it is there, and else written down.
         """
         if not self._verified.any():
             return self._tokens.named(motion, runs, segments)
         stretches = [(one.first, one.last) for one in segments]
-        limit = dict(zip(self.names, self._verification.limit.tolist(), strict=True))
+        intent = intent or self.intent or Intent.FREE
         spans = []
         for one, ranked in zip(
-            segments, self._matches(motion, runs, stretches, WORTH_NAMING, known), strict=True
+            segments,
+            self._matches(motion, runs, stretches, WORTH_NAMING, intent, known),
+            strict=True,
         ):
-            within = (m.action for m in ranked if m.action and m.distance <= limit[m.action])
+            within = (
+                match.action for match in ranked if match.action and match.distance <= match.most
+            )
             spans.append(_span(next(within, self.names[one.index]), one, runs, ranked))
         return spans
 
-    def _cost(
+    def _stretches(
         self,
         proposed: Sequence[Proposal],
-        motion: RigidMotion,
         runs: Sequence[TokenRun],
         prices: RunCosts,
-        known: Fits,
+        intent: Intent,
+    ) -> list[Stretch]:
+        """Return the stretches that may be an action: without stir, and with their loose ends."""
+        found = [*((one.first, one.last) for one in proposed), *rest_to_rest(prices.is_still)]
+        spoken_for = dict.fromkeys(_as_meant(found, runs))
+        if intent is Intent.DRAWN:
+            return [(*one, False) for one in spoken_for]
+        durations_s = self._durations_s[self._verified]
+        dense = dict.fromkeys(_as_meant(dense_stretches(runs, prices.is_still, durations_s), runs))
+        return [
+            *((*one, False) for one in spoken_for),
+            *((*one, True) for one in dense if one not in spoken_for),
+        ]
+
+    def _wrong(
+        self, stretches: Sequence[tuple[int, int]], runs: Sequence[TokenRun], prices: RunCosts
     ) -> FloatArray:
-        """Return what each proposal costs; infinity where it does not fit its action's examples."""
-        fits = self._fits(proposed, motion, runs, known)
-        limit = self._verification.limit
+        """Return ``(g, a)``, the share of the strokes of stretches that is wrong as actions."""
+        read = prices.of_reading(self._bank, runs)
+        distance = least_costs_of_parts(self._bank, stretches, read=read, skip=prices.skip)
         strokes = np.concatenate([[0], np.cumsum(~prices.is_still)])
+        first, last = np.array(stretches, np.int64).reshape(-1, 2).T
+        return np.asarray(distance / np.maximum(strokes[last] - strokes[first], 1)[:, None])
+
+    def _add_unverified(
+        self,
+        cost: FloatArray,
+        stretches: Sequence[Stretch],
+        proposed: Sequence[Proposal],
+        runs: Sequence[TokenRun],
+        prices: RunCosts,
+    ) -> None:
+        """Write into the costs what proposals cost of actions that have no examples."""
         unexplained = np.concatenate([[0.0], np.cumsum(prices.unexplained)])
-        action, first, last = np.array([one[:3] for one in proposed], np.int64).reshape(-1, 3).T
-        distance = np.array([one.distance for one in proposed])
-        wrong = distance / np.maximum(strokes[last] - strokes[first], 1)
-        verified = self._verified[action]
-        cost = np.where(verified, fits + WRONG * wrong, UNVERIFIED + UNVERIFIED_WRONG * wrong)
-        gain = unexplained[last] - unexplained[first] - distance
-        accepted = np.where(verified, cost <= limit[action], gain > self._costs.action)
-        cost[~accepted] = np.inf
-        return cost
+        place = {(first, last): i for i, (first, last, _) in enumerate(stretches)}
+        for one in proposed:
+            if not self._verified[one.action]:
+                (tight,) = without_stir([(one.first, one.last)], runs)
+                strokes = int(np.count_nonzero(~prices.is_still[tight[0] : tight[1]]))
+                gain = unexplained[tight[1]] - unexplained[tight[0]] - one.distance
+                if gain > self._costs.action:
+                    wrong = one.distance / max(strokes, 1)
+                    cost[place[tight], one.action] = UNVERIFIED + UNVERIFIED_WRONG * wrong
 
     def _fits(
         self,
-        proposed: Sequence[Proposal],
+        stretches: Sequence[Stretch],
         motion: RigidMotion,
         runs: Sequence[TokenRun],
+        most: FloatArray,
         known: Fits,
     ) -> FloatArray:
-        """Return how unlike its action's examples each proposal is, its tokens apart.
-
-        That is infinity where it is beyond the limit or another action fits the same stretch
-        better, and 0 where there are no examples.
-        """
-        span_s: dict[tuple[int, int], tuple[float, float]] = {}
-        for first, last in dict.fromkeys((one.first, one.last) for one in proposed):
-            (whole,) = with_loose_ends([Segment(0, first, last)], runs)
-            span_s[first, last] = runs[whole.first].start_s, runs[whole.last - 1].end_s
-        strokes = np.concatenate([[0], np.cumsum([run.token != STILL for run in runs])])
-        stretches = [(one.action, *span_s[one.first, one.last]) for one in proposed]
-        wrong_of = {
-            stretch: one.distance / max(int(strokes[one.last] - strokes[one.first]), 1)
-            for stretch, one in zip(stretches, proposed, strict=True)
-        }
-        missing = [
-            each
-            for each in dict.fromkeys(stretches)
-            if self._verified[each[0]] and each not in known
-        ]
-        if missing:
-            spans_s = list(dict.fromkeys(each[1:] for each in missing))
-            place = {span_s: i for i, span_s in enumerate(spans_s)}
+        """Return ``(g, a)``, how unlike actions' examples stretches are, their tokens apart."""
+        spans = [(runs[i].start_s, runs[j - 1].end_s, dense) for i, j, dense in stretches]
+        new = [span for span in dict.fromkeys(spans) if span not in known]
+        for begin in range(0, len(new), TOGETHER):
+            some = new[begin : begin + TOGETHER]
+            start_s, end_s, is_dense = np.array(some).T
+            spans_s = [(start, end) for start, end, _ in some]
             gestures = traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m)
-            action = np.array([each[0] for each in missing])
-            gesture = np.array([place[each[1:]] for each in missing])
-            terms = self._verification.least_terms(
+            alike = are_alike_long(end_s - start_s, self._durations_s) | (is_dense == 0)[:, None]
+            near = self._verification.measured(gestures.measures) < most
+            gesture, action = np.nonzero(self._verified & alike & near)
+            terms = self._verification.terms(
                 gestures,
                 action,
                 gesture,
-                wrong=np.array([wrong_of[each] for each in missing]),
-                most=self._verification.limit[action],
+                wrong=np.zeros(len(action)),
+                most=most[action],
                 every=GLANCE,
             )
-            known.update(zip(missing, terms[:, 1:].sum(axis=1).tolist(), strict=True))
-        return np.array([known.get(each, 0.0) for each in stretches])
+            fits = np.full((len(some), len(self.names)), np.inf)
+            fits[gesture, action] = terms.sum(axis=1)
+            known.update(zip(some, fits, strict=True))
+        return np.array([known[span] for span in spans]).reshape(len(spans), len(self.names))
 
     def _matches(
         self,
@@ -324,31 +397,27 @@ class Recognizer:
         runs: Sequence[TokenRun],
         stretches: Sequence[tuple[int, int]],
         beyond: float,
+        intent: Intent,
         known: Terms | None = None,
     ) -> list[list[Match]]:
         """Weigh every action, and none, for stretches of runs; for each the best first.
 
-        What costs more than ``beyond`` times its action's limit comes out as infinity, where the
+        What costs more than ``beyond`` times what its action may comes out as infinity, where the
         action has examples.
         """
-        prices = run_costs(runs, self._costs)
-        read = prices.of_reading(self._bank, runs)
-        distance = least_costs_of_parts(self._bank, stretches, read=read, skip=prices.skip)
-        strokes = np.concatenate([[0], np.cumsum(~prices.is_still)])
-        first, last = np.array(stretches, np.int64).reshape(-1, 2).T
-        wrong = distance / np.maximum(strokes[last] - strokes[first], 1)[:, None]
+        most = self._most[intent]
+        wrong = self._wrong(stretches, runs, run_costs(runs, self._costs))
         terms = np.zeros((len(stretches), len(self.names), len(TERMS)))
         terms[..., 0] = UNVERIFIED + UNVERIFIED_WRONG * wrong
-        limit = np.where(self._verified, self._verification.limit, UNVERIFIED + UNVERIFIED_WRONG)
         if len(stretches) and self._verified.any():
             known = {} if known is None else known
             spans_s = [(runs[first].start_s, runs[last - 1].end_s) for first, last in stretches]
             new = [span_s for span_s in dict.fromkeys(spans_s) if span_s not in known]
-            known.update(zip(new, self._weighed(motion, new, beyond * limit), strict=True))
+            known.update(zip(new, self._weighed(motion, new, beyond * most), strict=True))
             terms[:, self._verified] = [known[span_s] for span_s in spans_s]
             terms[..., 0] = np.where(self._verified, WRONG * wrong, terms[..., 0])
-            terms[self._verified & (terms.sum(axis=-1) > beyond * limit)] = np.inf
-        return [self._ranked(each, limit) for each in terms]
+            terms[self._verified & (terms.sum(axis=-1) > beyond * most)] = np.inf
+        return [self._ranked(each, most) for each in terms]
 
     def _weighed(
         self, motion: RigidMotion, spans_s: Sequence[tuple[float, float]], most: FloatArray
@@ -366,22 +435,26 @@ class Recognizer:
         )
         return terms.reshape(len(spans_s), len(action), len(TERMS))
 
-    def _ranked(self, terms: FloatArray, limit: FloatArray) -> list[Match]:
+    def _ranked(self, terms: FloatArray, most: FloatArray) -> list[Match]:
         """Return the matches of one gesture, the best first, from its terms ``(a, 9)``.
 
         The costs are negative logarithms of likelihoods, up to a constant, so the confidence is
-        each one's share of the likelihood; nothing at all is as likely as the best action at its
-        limit.
+        each one's share of the likelihood; nothing at all is as likely as the best action at the
+        most that it may cost.
         """
         cost = terms.sum(axis=1)
-        nothing = float(limit[int(np.argmin(cost))])
+        nothing = float(most[int(np.argmin(cost))])
         costs = np.append(cost, nothing)
         weight = np.exp(costs.min() - costs)
         share = (weight / weight.sum()).tolist()
         weighed = np.where(self._verified, len(TERMS), 1).tolist()  # without examples, the tokens
         matches = [
-            Match(name, float(each.sum()), p, tuple(zip(TERMS, each[:n].tolist(), strict=False)))
-            for name, each, p, n in zip(self.names, terms, share[:-1], weighed, strict=True)
+            Match(
+                name, float(each.sum()), p, own, tuple(zip(TERMS, each[:n].tolist(), strict=False))
+            )
+            for name, each, p, own, n in zip(
+                self.names, terms, share[:-1], most.tolist(), weighed, strict=True
+            )
         ]
         matches.append(Match(None, nothing, share[-1]))
         return sorted(matches, key=lambda match: match.distance)
@@ -390,23 +463,33 @@ class Recognizer:
 class _Remembering:
     """A recognizer that is asked again and again about a doodle as it grows."""
 
-    def __init__(self, recognizer: Recognizer) -> None:
+    def __init__(self, recognizer: Recognizer, intent: Intent | None) -> None:
         self._recognizer = recognizer
+        self._intent = intent
         self._fits: Fits = {}
         self._terms: Terms = {}
 
     def chosen(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Segment]:
         """Choose as the recognizer does, and forget what is over."""
         begin_s = motion.time_s[0]
-        self._fits = {each: fit for each, fit in self._fits.items() if each[1] >= begin_s}
+        self._fits = {each: fit for each, fit in self._fits.items() if each[0] >= begin_s}
         self._terms = {each: terms for each, terms in self._terms.items() if each[0] >= begin_s}
-        return self._recognizer.chosen(motion, runs, self._fits)
+        return self._recognizer.chosen(motion, runs, self._intent, self._fits)
 
     def named(
         self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
     ) -> list[Span]:
         """Name as the recognizer does."""
-        return self._recognizer.named(motion, runs, segments, self._terms)
+        return self._recognizer.named(motion, runs, segments, self._intent, self._terms)
+
+
+def _as_meant(
+    stretches: Sequence[tuple[int, int]], runs: Sequence[TokenRun]
+) -> list[tuple[int, int]]:
+    """Return stretches without stir at their ends, and then as well with their loose ends."""
+    tight = list(dict.fromkeys(without_stir(stretches, runs)))
+    grown = [with_loose_ends([Segment(0, *one)], runs)[0] for one in tight]
+    return [*tight, *((one.first, one.last) for one in grown)]
 
 
 def _span(name: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[Match]) -> Span:

@@ -54,7 +54,7 @@ _RADIAN_IN_SHAPE = 0.4
 """How far turning by a radian is, in a shape whose positions lie at distance 1 from their mean."""
 
 _RADIAN_IN_FLOW = 0.5
-_FLOORS = (0.05, 0.1, 0.2, 0.1)
+FLOORS = (0.05, 0.1, 0.2, 0.1)
 """Added to each measure before the logarithm: s, heights, heights, rad."""
 
 
@@ -144,7 +144,7 @@ def traits_of_parts(
         ),
         np.concatenate([moving, turning], axis=-1),
     )
-    measures = np.log(sizes + _FLOORS)
+    measures = np.log(sizes + FLOORS)
     return Traits(courses, measures)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -22,18 +22,6 @@ WEIGHTS.flags.writeable = False
 
 WRONG = float(WEIGHTS[0])
 """What a gesture costs of whose tokens all are wrong, whatever the examples say."""
-
-USUAL_COST = 8.0
-"""Of an example, weighed against the others of its action: in the middle between what simulated
-people (4) and people who wave their hands before a camera (10) do."""
-
-PRIOR_COSTS = 3.0
-"""How many examples the usual cost counts for, in a library's threshold and in an action's."""
-
-SLACK, SLACK_SHARE = 4.5, 1.6
-"""A gesture is rejected where it costs more than so many times an example's cost and a slack. The
-slack is for three examples or fewer; it shrinks with the root of their number, as what they leave
-open does."""
 
 GLANCE = 2
 """Courses of proposals are warped by every second sample, in a quarter of the time. That is good
@@ -63,11 +51,9 @@ class Verification:
     Attributes
     ----------
     exemplars : of each of a actions; None where there are no examples.
-    limit : (a,), the cost above which a gesture is rejected; infinite where there are none.
     """
 
     exemplars: tuple[Exemplar | None, ...]
-    limit: FloatArray
     centre: FloatArray = field(init=False)
     spread: FloatArray = field(init=False)
     unit: FloatArray = field(init=False)
@@ -75,11 +61,11 @@ class Verification:
     examples: Mapping[int, tuple[Examples, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "exemplars", tuple(self.exemplars))
         some = next((one for one in self.exemplars if one), None)
         # An action without examples borrows some; they are never looked at.
         each = [one or some for one in self.exemplars] if some else []
         stacked = {
-            "limit": self.limit,
             "centre": [one.centre for one in each if one],
             "spread": [one.spread for one in each if one],
             "unit": [WEIGHTS[1 : 1 + len(COURSES)] / one.scale for one in each if one],
@@ -183,90 +169,10 @@ class Verification:
             left = left[known[left] + floor[left].sum(axis=1) <= most[left]]
         return terms
 
-    def least_terms(
-        self,
-        gestures: Traits,
-        action: IntArray,
-        gesture: IntArray,
-        *,
-        wrong: FloatArray,
-        most: FloatArray,
-        every: int = 1,
-    ) -> FloatArray:
-        """Return `terms`, of which only the least sum for each gesture has to be known.
-
-        For each gesture the action that its tokens and measures speak for is weighed first; others
-        are not looked into further (`inf`) once they cost more. The arguments are those of `terms`.
-        """
-        found = np.full((len(action), len(TERMS)), np.inf)
-        if not len(action):
-            return found
-        deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
-        glance = WEIGHTS[0] * wrong + (WEIGHTS[_MEASURES] * _oddness(deviation)).sum(axis=1)
-        order = np.lexsort((glance, gesture))
-        first = order[np.unique(gesture[order], return_index=True)[1]]
-        rest = np.setdiff1d(np.arange(len(action)), first)
-
-        def weigh(pairs: IntArray, bound: FloatArray) -> None:
-            found[pairs] = self.terms(
-                gestures,
-                action[pairs],
-                gesture[pairs],
-                wrong=wrong[pairs],
-                most=bound,
-                every=every,
-            )
-
-        weigh(first, most[first])
-        best = np.full(int(gesture.max()) + 1, np.inf)
-        np.minimum.at(best, gesture[first], found[first].sum(axis=1))
-        weigh(rest, np.minimum(most[rest], best[gesture[rest]]))
-        return found
-
-
-def verification_of(
-    exemplars: Sequence[Exemplar | None], *, tolerance: float = 1.0
-) -> Verification:
-    """Return what gestures must be like to be each action of a library.
-
-    The limit follows from what examples cost when each is left out in turn: of the action, pooled
-    with those of the whole library, which say how alike this user's gestures are, and with a
-    usual cost, all as means of logarithms. It is multiplied by ``tolerance``.
-    """
-    own = [_left_out_costs(one) if one else np.zeros(0) for one in exemplars]
-    library = _pooled(np.concatenate([np.zeros(0), *own]), USUAL_COST)
-    limits = [
-        tolerance * _limit(len(one), _pooled(costs, library)) if one else np.inf
-        for one, costs in zip(exemplars, own, strict=True)
-    ]
-    return Verification(tuple(exemplars), np.array(limits))
-
-
-def _limit(examples: int, usual: float) -> float:
-    """Return the cost above which a gesture is rejected."""
-    return SLACK_SHARE * usual + SLACK * float(np.sqrt(3.0 / max(examples, 3)))
-
-
-def _left_out_costs(exemplar: Exemplar) -> FloatArray:
-    """Return ``(n,)``: what each example costs against the others; nothing where n is 1.
-
-    The scales and spreads are those of all examples; a broad prior outweighs a single one.
-    """
-    n = len(exemplar.apart)
-    if n == 0:
-        return np.zeros(0)
-    others = (exemplar.measures.sum(axis=0) - exemplar.measures) / (n - 1)
-    odd = _oddness((exemplar.measures - others) / exemplar.spread)
-    terms = np.hstack([np.zeros((n, 1)), exemplar.apart / exemplar.scale, odd])
-    return np.asarray(terms @ WEIGHTS)
-
-
-def _pooled(costs: FloatArray, prior: float) -> float:
-    """Return the geometric mean of costs, and of a prior that counts for a few more."""
-    # Of many examples of many people the nearest is near, which is why no more than 30 count.
-    count = min(len(costs), 30)
-    mean = float(np.log(costs + 0.1).mean()) if count else 0.0
-    return float(np.exp((PRIOR_COSTS * np.log(prior) + count * mean) / (PRIOR_COSTS + count)))
+    def measured(self, measures: FloatArray) -> FloatArray:
+        """Return ``(g, a)``, what the measures ``(g, 4)`` of g gestures alone cost, as actions."""
+        deviation = (measures[:, None] - self.centre) / self.spread
+        return np.asarray(_oddness(deviation) @ WEIGHTS[_MEASURES])
 
 
 def _oddness(deviation: FloatArray) -> FloatArray:

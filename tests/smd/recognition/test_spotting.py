@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from smd.doodle import Doodle
 from smd.errors import LearningError
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition import Recognizer, learn_action
+from smd.recognition.acceptance import Intent
 from smd.recognition.action import Action
 from smd.recognition.exemplar import Exemplar
 from smd.recognition.pattern import Pattern
@@ -95,6 +97,37 @@ def test_a_gesture_that_was_not_taught_is_none(player, actions):
 def test_a_lower_tolerance_rejects_more(player, actions):
     doodle = take(*player, "walk", "punch", "bow").doodle()
     assert Recognizer(actions, tolerance=0.05).spot(doodle) == []
+
+
+def test_what_is_drawn_is_found_sooner_than_what_is_not_said_to_be_meant(player, actions):
+    doodle = take(*player, "walk", "punch", "bow").doodle()
+    drawn = replace(doodle, drawing=np.ones(len(doodle), bool))
+    tight = Recognizer(actions, tolerance=0.2)
+    assert (tight.intent_of(doodle), tight.intent_of(drawn)) == (Intent.FREE, Intent.DRAWN)
+    assert len(tight.spot(drawn)) > len(tight.spot(doodle))
+    forced = Recognizer(actions, tolerance=0.2, intent=Intent.DRAWN)
+    assert [s.action for s in forced.spot(doodle)] == [s.action for s in tight.spot(drawn)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_gesture_without_rest_around_it_is_found(player, recognizer, name):
+    """The hand comes from above and goes there again; it does not rest in between."""
+    made = take(np.random.default_rng(3), player[1], name)
+    (phrase,) = made.phrases
+    doodle = made.doodle()
+    inside = (doodle.time_s >= phrase.start_s) & (doodle.time_s <= phrase.end_s)
+    gesture = doodle.position_m[inside]
+    u = np.linspace(0.0, 1.0, 60)[:, None]
+    way = np.array([0.05, 0.3, -0.05]) * u**2
+    position = np.concatenate([gesture[0] + way[::-1], gesture, gesture[-1] + way])
+    q = doodle.orientation_xyzw[inside]
+    orientation = np.concatenate([np.tile(q[0], (60, 1)), q, np.tile(q[-1], (60, 1))])
+    step_s = doodle.duration_s / (len(doodle) - 1)
+    moving = Doodle(step_s * np.arange(len(position)), position, orientation)
+    spans = recognizer.spot(moving)
+    assert [span.action for span in spans] == [name]
+    assert abs(spans[0].start_s - 60 * step_s) < 0.25
+    assert abs(spans[0].end_s - step_s * (60 + len(gesture))) < 0.25
 
 
 def test_stillness_is_no_action(recognizer):

@@ -6,7 +6,7 @@ import pytest
 from smd.recognition import verification as module
 from smd.recognition.exemplar import BAND, exemplar_of, faced
 from smd.recognition.traits import COURSES, SAMPLES, Traits
-from smd.recognition.verification import GLANCE, WEIGHTS, verification_of
+from smd.recognition.verification import GLANCE, WEIGHTS, Verification
 from tests.naive.warping import table_distance
 
 WIDTHS = (12, 12, 6, 6)
@@ -41,7 +41,7 @@ def problem():
     )
     gesture, action = (each.ravel() for each in np.meshgrid(range(6), range(3), indexing="ij"))
     wrong = rng.uniform(0.0, 1.0, len(action))
-    return verification_of(exemplars), stacked, action, gesture, wrong
+    return Verification(tuple(exemplars)), stacked, action, gesture, wrong
 
 
 def naive_terms(verification, gestures, action, gesture, wrong, every):
@@ -87,13 +87,8 @@ def test_the_terms_are_those_of_the_plain_formula_and_bounds_drop_only_what_is_a
         assert (found[~within].sum(axis=1) > most[mixed][~within]).all()
 
 
-def test_the_least_sum_of_each_gesture_is_found(problem):
-    verification, gestures, action, gesture, wrong = problem
-    total = naive_terms(*problem, 1).sum(axis=1)
-    found = verification.least_terms(
-        gestures, action, gesture, wrong=wrong, most=np.full(len(action), np.inf)
-    ).sum(axis=1)
-    for g in range(6):
-        own = np.flatnonzero(gesture == g)
-        assert found[own].min() == pytest.approx(total[own].min(), rel=1e-9)
-        assert found[own].argmin() == total[own].argmin()
+def test_measures_alone_cost_what_they_cost_among_the_terms(problem):
+    verification, gestures, action, gesture, _ = problem
+    expected = naive_terms(*problem, 1)[:, 5:].sum(axis=1)
+    found = verification.measured(gestures.measures)
+    np.testing.assert_allclose(found[gesture, action], expected, rtol=1e-9)
