@@ -9,7 +9,7 @@ One gesture in five is of a class that the library was not taught.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -166,6 +166,11 @@ def read_idle(paths: Sequence[Path]) -> list[Doodle]:
     """Read idle hands (Unity: left-handed)."""
     recordings = (read_recording(path, SourceFrame(handedness="left")) for path in paths)
     return [doodle for recording in recordings for doodle in recording.doodles]
+
+
+def minutes_of(doodles: Iterable[Doodle]) -> float:
+    """Return how long doodles are together, min."""
+    return sum(doodle.duration_s for doodle in doodles) / 60.0
 
 
 def sessions_of(

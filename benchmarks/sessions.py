@@ -5,17 +5,16 @@ Composed sessions (`benchmarks.composed`) of people 8 to 14 with the pauses of n
 plain spotter by warping (`benchmarks.spotter`) and the form with limits (`benchmarks.limits`), on
 the same sessions in the same run. Goals: F1 0.05 above the plain spotter and twice that with
 limits; with the trigger held 92 % of the known takes found, and at tolerance 0.8 half of the others
-left alone; 0.3 false a minute in idle hands and in free play.
+left alone; 0.3 false a minute in idle hands where 70 % of drawn takes are found.
 """
 
 from __future__ import annotations
 
 import sys
 import time
-from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Protocol, TypeAlias
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,46 +25,30 @@ from benchmarks.composed import (
     Session,
     Teaching,
     idle_files,
+    minutes_of,
     read_idle,
     sessions_of,
 )
 from benchmarks.gestures import DATA, REPORTED, learned_action, read_gestures
+from benchmarks.guards import (
+    Make,
+    Spots,
+    free_play,
+    print_guard,
+    print_neighbours,
+    spans_in,
+)
 from benchmarks.limits import LimitRecognizer
-from benchmarks.recognition import poisson_interval
 from benchmarks.spotter import Spotter
-from benchmarks.tally import Found, Tally, f1_interval, tally
+from benchmarks.tally import Tally, f1_gain_interval, f1_interval, tally
 from smd.doodle import Doodle
-from smd.errors import DoodleError
-from smd.formats import read_recording
-from smd.pipeline import HEADSETS
 from smd.recognition import Recognizer
-from smd.recognition.action import Action
 
 DEVELOPED = tuple(range(1, 8))
 TEACHINGS = (Teaching(own=2), Teaching(own=3), Teaching(others=10))
 SEED = 2029
 STRICT = 0.8
 """A tolerance at which more is left alone."""
-
-DEVELOPED_PLAY = ("dance", "grabLeft")
-"""Sessions of free play to choose by; the others are reported on."""
-
-NEIGHBOURS = (
-    ("taps of the whole hand", "g02_f2_s{person:02d}_*.csv", ("punch", "push")),
-    ("shakes", "g14_*_s{person:02d}_*.csv", ("wave",)),
-)
-"""Gestures of the camera that are near some of the shipped ones, and to which."""
-
-
-class Spots(Protocol):
-    """Finds actions in doodles."""
-
-    def spot(self, doodle: Doodle) -> Sequence[Found]:
-        """Return what was found, in time order."""
-
-
-Make: TypeAlias = Callable[[Sequence[Action]], Spots]
-"""What is made of a library."""
 
 OURS, LIMITS, PLAIN = "ours", "with limits", "plain spotter"
 
@@ -76,112 +59,110 @@ VARIANTS: Mapping[str, Make] = {}
 """Ours with a part taken away, to tell what each part is worth."""
 
 FREE, DRAWN, DRAWN_STRICT = "free", "drawn", f"drawn, tolerance {STRICT:g}"
+"""What is said of drawing: nothing, or when the trigger is held."""
 
 
 @dataclass(frozen=True, slots=True)
-class Key:
-    """Which tally: who found, what was said of drawing, how and how much was taught, and whose."""
+class Trial:
+    """What one form found in one session.
+
+    Attributes
+    ----------
+    form, said : which form, and what it was told of drawing.
+    teaching, small, person : how its library was taught, whether it is a small one, and who plays.
+    counts : against the truth.
+    making_s, spotting_s : processor time, to learn and make it ready, and for the session.
+    idle : spans in idle hands; 0 where they were not looked at.
+    """
 
     form: str
     said: str
     teaching: Teaching
     small: bool
     person: int
+    counts: Tally
+    making_s: float
+    spotting_s: float
+    idle: int
 
 
-@dataclass(slots=True)
-class Measured:
-    """What was counted over sessions.
+@dataclass(frozen=True, slots=True)
+class Trials:
+    """All trials, to choose from."""
 
-    Attributes
-    ----------
-    tallies : by form, what was said of drawing, teaching, size of the library and person.
-    idle : by form and teaching, the false spans in idle hands of each library.
-    idle_minutes : length of the idle hands.
-    processor_s : by form, for making it and for the sessions without a trigger.
-    """
+    every: tuple[Trial, ...]
 
-    tallies: dict[Key, Tally] = field(default_factory=lambda: defaultdict(Tally))
-    idle: dict[tuple[str, Teaching], list[int]] = field(default_factory=lambda: defaultdict(list))
-    idle_minutes: float = 0.0
-    processor_s: dict[str, float] = field(default_factory=lambda: defaultdict(float))
-
-    def of(self, form: str, said: str, teaching: Teaching, small: bool | None = None) -> Tally:
-        """Return the sum over people, and over both sizes of library by default."""
-        parts = (
-            one
-            for key, one in self.tallies.items()
-            if (key.form, key.said, key.teaching) == (form, said, teaching)
-            and small in (None, key.small)
+    def of(self, form: str, said: str, teaching: Teaching, small: bool | None = None) -> Trials:
+        """Return those of a form, what is said, a teaching and, if asked for, a size."""
+        return Trials(
+            tuple(
+                one
+                for one in self.every
+                if (one.form, one.said, one.teaching) == (form, said, teaching)
+                and small in (None, one.small)
+            )
         )
-        return sum(parts, Tally())
 
-    def by_person(self, form: str, said: str, teaching: Teaching) -> list[Tally]:
-        """Return the tally of each person."""
+    @property
+    def counts(self) -> Tally:
+        """All counts together."""
+        return sum((one.counts for one in self.every), Tally())
+
+    @property
+    def by_person(self) -> list[Tally]:
+        """The counts of each person, in their order."""
         people: dict[int, Tally] = defaultdict(Tally)
-        for key, one in self.tallies.items():
-            if (key.form, key.said, key.teaching) == (form, said, teaching):
-                people[key.person] += one
-        return list(people.values())
+        for one in self.every:
+            people[one.person] += one.counts
+        return [people[person] for person in sorted(people)]
 
 
-def measured(sessions: Sequence[Session], idle: Sequence[Doodle]) -> Measured:
+def trials(sessions: Sequence[Session], idle: Sequence[Doodle]) -> Trials:
     """Let every form find what it can in every session, and in idle hands."""
-    found = Measured(idle_minutes=minutes_of(idle))
+    found: list[Trial] = []
     for number, session in enumerate(sessions, 1):
-        for form, spots, said in _forms(session, found.processor_s):
-            small = len(session.examples) == FEW_CLASSES
+        for form, spots, making_s, said in _forms(session):
             for what in said:
-                doodle = session.free if what == FREE else session.drawn
                 started = time.process_time()
-                counts = tally(spots.spot(doodle), session)
-                if what == FREE:
-                    found.processor_s[form] += time.process_time() - started
-                found.tallies[Key(form, what, session.teaching, small, session.person)] += counts
-            if FREE in said and form not in VARIANTS:
-                seen = sum(spans_in(idle, spots).values())
-                found.idle[form, session.teaching].append(seen)
-        _progress(
+                spans = spots.spot(session.free if what == FREE else session.drawn)
+                spotting_s = time.process_time() - started
+                looked_at = idle if what == FREE and form not in VARIANTS else ()
+                trial = Trial(
+                    form=form,
+                    said=what,
+                    teaching=session.teaching,
+                    small=len(session.examples) == FEW_CLASSES,
+                    person=session.person,
+                    counts=tally(spans, session),
+                    making_s=making_s,
+                    spotting_s=spotting_s,
+                    idle=sum(spans_in(looked_at, spots).values()),
+                )
+                found.append(trial)
+        print(
             f"session {number} of {len(sessions)}: person {session.person}, {session.teaching}, "
-            f"{len(session.examples)} classes, {session.free.duration_s:.0f} s"
+            f"{len(session.examples)} classes, {session.free.duration_s:.0f} s",
+            file=sys.stderr,
+            flush=True,
         )
-    return found
+    return Trials(tuple(found))
 
 
-def _forms(
-    session: Session, processor_s: dict[str, float]
-) -> Iterator[tuple[str, Spots, Sequence[str]]]:
-    """Yield each form of a session's library, and what is to be said of drawing."""
+def _forms(session: Session) -> Iterator[tuple[str, Spots, float, Sequence[str]]]:
+    """Yield each form of a session's library, its making, and what it is to be told of drawing."""
     started = time.process_time()
     actions = [learned_action(name, list(own)) for name, own in session.examples.items()]
     learning_s = time.process_time() - started
     for form, make in {**FORMS, **VARIANTS}.items():
         started = time.process_time()
         made = make(actions)
-        processor_s[f"{form}, made"] += learning_s + time.process_time() - started
-        yield form, made, (FREE,) if form in VARIANTS else (FREE, DRAWN)
+        making_s = learning_s + time.process_time() - started
+        yield form, made, making_s, (FREE,) if form in VARIANTS else (FREE, DRAWN)
     started = time.process_time()
     plain = Spotter(session.examples)
-    processor_s[f"{PLAIN}, made"] += time.process_time() - started
-    yield PLAIN, plain, (FREE, DRAWN)
-    yield OURS, Recognizer(actions, tolerance=STRICT), (DRAWN_STRICT,)
-    yield LIMITS, LimitRecognizer(actions, tolerance=STRICT), (DRAWN_STRICT,)
-
-
-def spans_in(doodles: Iterable[Doodle], spots: Spots) -> Counter[str]:
-    """Return what is found in doodles, by name."""
-    seen: Counter[str] = Counter()
-    for doodle in doodles:
-        try:
-            seen.update(span.action for span in spots.spot(doodle))
-        except DoodleError:  # too short to smooth
-            continue
-    return seen
-
-
-def minutes_of(doodles: Iterable[Doodle]) -> float:
-    """Return how long doodles are together, min."""
-    return sum(doodle.duration_s for doodle in doodles) / 60.0
+    yield PLAIN, plain, time.process_time() - started, (FREE, DRAWN)
+    yield OURS, Recognizer(actions, tolerance=STRICT), 0.0, (DRAWN_STRICT,)
+    yield LIMITS, LimitRecognizer(actions, tolerance=STRICT), 0.0, (DRAWN_STRICT,)
 
 
 def print_sizes(sessions: Sequence[Session], people: Sequence[int]) -> None:
@@ -194,30 +175,39 @@ def print_sizes(sessions: Sequence[Session], people: Sequence[int]) -> None:
         f"{len({session.person for session in sessions})} people, "
         f"{minutes_of(session.free for session in sessions):.1f} min, {len(gestures)} gestures, "
         f"{foreign} of them of classes that the library does not hold; libraries of "
-        f"{min(classes)} to {max(classes)} classes"
+        f"{min(classes)} to {max(classes)} classes",
+        flush=True,
     )
 
 
-def print_sessions(found: Measured) -> None:
-    """Print what is found in the sessions, without a trigger and with it."""
-    for said, title in ((FREE, "nothing says what is meant"), (DRAWN, "with the trigger held")):
-        print(f"sessions, {title}")
-        print(
-            "  taught       form             F1 (95 % over people)  of 6, of all classes  recall  "
-            "precision  false a minute  begins, ends off (median, 90 %)"
-        )
-        for teaching in TEACHINGS:
-            for form in (*FORMS, PLAIN, *VARIANTS):
-                if not (people := found.by_person(form, said, teaching)):
-                    continue
-                whole = found.of(form, said, teaching)
-                low, high = f1_interval(people)
-                small, full = (found.of(form, said, teaching, size).f1 for size in (True, False))
-                print(
-                    f"  {teaching!s:12} {form:16} {whole.f1:4.2f} ({low:.2f} to {high:.2f})     "
-                    f"{small:11.2f}, {full:.2f}        {whole.recall:6.2f}  "
-                    f"{whole.precision:9.2f}  {whole.false_a_minute:14.1f}  {_off(whole)}"
-                )
+def print_found(found: Trials, said: str) -> None:
+    """Print what is found in the sessions, and what ours gains over the others."""
+    print(
+        "  taught       form           F1 (95 % over people)  of 6, of all  recall  precision  "
+        "false/min  begin, end off: median, 90 %"
+    )
+    for teaching in TEACHINGS:
+        for form in (*FORMS, PLAIN, *VARIANTS):
+            some = found.of(form, said, teaching)
+            if not some.every:
+                continue
+            whole = some.counts
+            low, high = f1_interval(some.by_person)
+            small, full = (found.of(form, said, teaching, size).counts.f1 for size in (True, False))
+            print(
+                f"  {teaching!s:12} {form:14} {whole.f1:4.2f} ({low:.2f} to {high:.2f})     "
+                f"{small:.2f}, {full:.2f}    {whole.recall:5.2f}  {whole.precision:9.2f}  "
+                f"{whole.false_a_minute:9.1f}  {_off(whole)}"
+            )
+        ours = found.of(OURS, said, teaching)
+        for form in (LIMITS, PLAIN):
+            theirs = found.of(form, said, teaching)
+            gain = ours.counts.f1 - theirs.counts.f1
+            low, high = f1_gain_interval(ours.by_person, theirs.by_person)
+            print(
+                f"  {teaching!s:12} ours above {form}: {gain:+.2f} ({low:+.2f} to {high:+.2f}), "
+                f"{ours.counts.f1 / max(theirs.counts.f1, 1e-9):.2f} times"
+            )
 
 
 def _off(whole: Tally) -> str:
@@ -225,16 +215,16 @@ def _off(whole: Tally) -> str:
     if not whole.off_s:
         return "no hits"
     middle, most = np.percentile(np.abs(whole.off_s), (50, 90), axis=0)
-    return f"{middle[0]:.2f}, {middle[1]:.2f} s ({most[0]:.2f}, {most[1]:.2f} s)"
+    return f"{middle[0]:.2f}, {middle[1]:.2f} s; {most[0]:.2f}, {most[1]:.2f} s"
 
 
-def print_drawn(found: Measured) -> None:
+def print_drawn(found: Trials) -> None:
     """Print what is said of takes with the trigger held, known and of other classes."""
     print("with the trigger held: known takes found, and others of which nothing is said")
     for teaching in TEACHINGS:
         for form in FORMS:
             for said, tolerance in ((DRAWN, 1.0), (DRAWN_STRICT, STRICT)):
-                whole = found.of(form, said, teaching)
+                whole = found.of(form, said, teaching).counts
                 print(
                     f"  {teaching!s:12} {form:12} tolerance {tolerance:3.1f}: "
                     f"{100.0 * whole.recall:5.1f} % of {whole.known}, "
@@ -242,85 +232,42 @@ def print_drawn(found: Measured) -> None:
                 )
 
 
-def print_idle(found: Measured) -> None:
+def print_idle(found: Trials, minutes: float) -> None:
     """Print what the sessions' libraries find in idle hands, beside their recall of takes."""
     print(
-        f"idle hands, {found.idle_minutes:.1f} min, with every session's library: false a minute, "
-        "and in the worst library; known takes found, free and with the trigger held"
+        f"idle hands, {minutes:.1f} min, with every session's library: false a minute, and in the "
+        "worst library; known takes found, free and with the trigger held"
     )
     for teaching in TEACHINGS:
         for form in (*FORMS, PLAIN):
-            rate = np.array(found.idle[form, teaching]) / found.idle_minutes
-            free, drawn = (found.of(form, said, teaching).recall for said in (FREE, DRAWN))
+            free = found.of(form, FREE, teaching)
+            drawn = found.of(form, DRAWN, teaching)
+            rate = np.array([one.idle for one in free.every]) / minutes
             print(
-                f"  {teaching!s:12} {form:16} {rate.mean():5.2f}, {rate.max():5.2f}; "
-                f"{100.0 * free:5.1f} %, {100.0 * drawn:5.1f} %"
+                f"  {teaching!s:12} {form:14} {rate.mean():5.2f}, {rate.max():5.2f}; "
+                f"{100.0 * free.counts.recall:5.1f} %, {100.0 * drawn.counts.recall:5.1f} %"
             )
 
 
-def print_guard(idle: Sequence[Doodle], play: Sequence[Doodle]) -> None:
-    """Print what the shipped library finds where nothing is meant."""
-    library = load_library()
-    print("the shipped library at its default, where nothing is meant: phrases a minute (95 %)")
-    for title, doodles in (("idle hands", idle), ("free play of controllers", play)):
-        minutes = minutes_of(doodles)
-        for form, make in FORMS.items():
-            seen = spans_in(doodles, make(library.actions))
-            count = sum(seen.values())
-            low, high = (bound / minutes for bound in poisson_interval(count))
-            which = ", ".join(f"{action} {n}" for action, n in seen.most_common())
+def print_times(found: Trials) -> None:
+    """Print what each form took, with small libraries and with full ones."""
+    print(
+        "processor time a minute of session without a trigger, of 6 classes and of all; to learn "
+        "and make ready a library of each"
+    )
+    for teaching in TEACHINGS:
+        for form in (*FORMS, PLAIN, *VARIANTS):
+            told = []
+            for small in (True, False):
+                some = found.of(form, FREE, teaching, small)
+                spotting_s = sum(one.spotting_s for one in some.every)
+                making_s = np.mean([one.making_s for one in some.every])
+                told.append((spotting_s / some.counts.minutes, making_s))
+            (few, few_made), (full, full_made) = told
             print(
-                f"  {title}, {minutes:.1f} min, {form}: {count / minutes:.2f} ({low:.2f} to "
-                f"{high:.2f})  {which}"
+                f"  {teaching!s:12} {form:14} {1e3 * few:6.0f}, {1e3 * full:6.0f} ms; "
+                f"{few_made:5.2f}, {full_made:5.2f} s"
             )
-
-
-def print_neighbours(people: Sequence[int]) -> None:
-    """Print how often gestures of a camera are taken for shipped ones that they resemble.
-
-    A test of neighbours: nobody was asked for a punch or a wave, and a hand is no figurine.
-    """
-    library = load_library()
-    print("a neighbour's test: drawn, taken for a shipped action that they resemble")
-    for title, pattern, names in NEIGHBOURS:
-        paths = [
-            path
-            for person in people
-            for path in sorted((DATA / "gestures").glob(pattern.format(person=person)))
-        ]
-        takes = [read_recording(path, FRAME).doodles[0] for path in paths]
-        drawn = [replace(take, drawing=np.ones(len(take), bool)) for take in takes]
-        for form, make in FORMS.items():
-            spots = make(library.actions)
-            seen = [{span.action for span in spots.spot(take)} for take in drawn]
-            share = sum(bool(each & set(names)) for each in seen) / len(seen)
-            which = Counter(action for each in seen for action in (each or {"nothing"}))
-            told = ", ".join(f"{action} {n}" for action, n in which.most_common(5))
-            print(
-                f"  {title} as {' or '.join(names)}, {form}: {100.0 * share:.0f} % of {len(seen)}"
-                f"  ({told})"
-            )
-
-
-def print_times(found: Measured) -> None:
-    """Print what each form took on the sessions."""
-    print("processor time on the sessions without a trigger, and to learn and make it ready")
-    for form in (*FORMS, PLAIN, *VARIANTS):
-        taken_s, made_s = found.processor_s[form], found.processor_s[f"{form}, made"]
-        print(f"  {form:16} {taken_s:6.1f} s, {made_s:5.1f} s")
-
-
-def free_play(names: Callable[[str], bool]) -> list[Doodle]:
-    """Return the controllers of A-Frame sessions whose names are wanted, not the headset."""
-    folder = DATA / "controllers" / "aframe" / "raw"
-    paths = [path for path in sorted(folder.glob("*.json")) if names(path.stem)]
-    doodles = [doodle for path in paths for doodle in read_recording(path).doodles]
-    return [doodle for doodle in doodles if doodle.device.lower() not in HEADSETS]
-
-
-def _progress(line: str) -> None:
-    """Tell how far it is."""
-    print(line, file=sys.stderr, flush=True)
 
 
 def main() -> None:
@@ -331,16 +278,19 @@ def main() -> None:
     develop = "--develop" in sys.argv
     people = DEVELOPED if develop else REPORTED
     idle = read_idle(idle_files()[0 if develop else 1])
-    play = free_play(lambda name: (name in DEVELOPED_PLAY) == develop)
     sessions = list(sessions_of(read_gestures(people, FRAME), idle, TEACHINGS, seed=SEED))
     print_sizes(sessions, people)
-    found = measured(sessions, idle)
-    print_sessions(found)
+    actions = load_library().actions
+    print_guard(FORMS, actions, idle, free_play(develop=develop))
+    print_neighbours(FORMS, actions, people)
+    found = trials(sessions, idle)
+    print("sessions of which nothing says what is meant")
+    print_found(found, FREE)
+    print("the same with the trigger held")
+    print_found(found, DRAWN)
     print_drawn(found)
-    print_idle(found)
+    print_idle(found, minutes_of(idle))
     print_times(found)
-    print_guard(idle, play)
-    print_neighbours(people)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.composed import Gesture, Session, Teaching
-from benchmarks.tally import Named, Tally, f1_interval, tally
+from benchmarks.tally import Named, Tally, f1_gain_interval, f1_interval, tally
 from smd.doodle import Doodle
 
 GESTURES = (
@@ -69,3 +69,10 @@ def test_people_who_are_all_alike_leave_no_doubt():
     assert low == high == pytest.approx(alike.f1)
     low, high = f1_interval([alike, Tally(known=4, hits=4), Tally(known=4, false=1)])
     assert low < alike.f1 < high
+
+
+def test_a_gain_is_told_of_the_same_people():
+    low, high = (Tally(known=9, hits=hits) for hits in (2, 8))
+    assert f1_gain_interval([low, high, low], [low, high, low]) == (0.0, 0.0)
+    least, most = f1_gain_interval([high] * 3, [low, high, low])
+    assert 0.0 <= least < most <= high.f1 - low.f1
