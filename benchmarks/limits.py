@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.tally import Named
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.action import Action
 from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, run_costs
@@ -25,8 +25,8 @@ from smd.recognition.recognizer import with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import TokenRun
-from smd.recognition.traits import traits_of_parts
-from smd.recognition.verification import GLANCE, WEIGHTS, verification_of
+from smd.recognition.traits import COURSES, traits_of_parts
+from smd.recognition.verification import GLANCE, WEIGHTS, WRONG, verification_of
 from smd.smoothing import smooth
 
 ACTION, UNEXPLAINED = 0.3, 20.0
@@ -74,14 +74,16 @@ class LimitRecognizer:
             return []
         stretches = [(one.first, one.last) for one in chosen]
         every = np.arange(len(self.names))
-        cost = self._costs(
+        terms = self._terms(
             motion,
             [_span_s(first, last, runs) for first, last in stretches],
             np.tile(every, len(stretches)),
             np.repeat(np.arange(len(stretches)), len(every)),
             self._wrong(runs, stretches).ravel(),
             glance=1,
-        ).reshape(len(stretches), len(every))
+        )
+        cost = terms.sum(axis=1).reshape(len(stretches), len(every))
+        cost[cost > self.limit] = np.inf
         return [
             Named(self.names[one.index if np.isinf(row.min()) else int(row.argmin())], *span_s)
             for one, row, span_s in zip(
@@ -101,15 +103,20 @@ class LimitRecognizer:
         action, first, last = np.array([one[:3] for one in proposed], np.int64).T
         distance = np.array([one.distance for one in proposed])
         spans_s, which = _unique_spans_s([(one.first, one.last) for one in proposed], runs)
-        cost = self._costs(
-            motion,
-            spans_s,
-            action,
-            which,
-            distance / np.maximum(strokes[last] - strokes[first], 1),
-            glance=GLANCE,
-        )
-        within = np.flatnonzero(np.isfinite(cost))
+        wrong = distance / np.maximum(strokes[last] - strokes[first], 1)
+        # Stretches that are one with their loose ends were looked at once, with the last's tokens.
+        pairs = list(zip(action.tolist(), which.tolist(), strict=True))
+        last_wrong = dict(zip(pairs, wrong.tolist(), strict=True))
+        looked_at = np.array([last_wrong[pair] for pair in pairs])
+        terms = self._terms(motion, spans_s, action, which, looked_at, glance=GLANCE)
+        cost = terms.sum(axis=1)
+        glance = terms[:, 0] + terms[:, 1 + len(COURSES) :].sum(axis=1)
+        order = np.lexsort((glance, which))
+        spoken_for = order[np.unique(which[order], return_index=True)[1]]
+        # Of a stretch's actions only those stay that fit no worse than the one a glance speaks for.
+        cost[cost > cost[spoken_for][which]] = np.inf
+        cost += WRONG * (wrong - looked_at)
+        within = np.flatnonzero(cost <= self.limit[action])
         movement_s = np.array([run.end_s - run.start_s for run in runs]) * ~prices.is_still
         explained_s = np.concatenate([[0.0], np.cumsum(movement_s)])
         first, last = first[within], last[within]
@@ -126,18 +133,18 @@ class LimitRecognizer:
         first, last = np.array(stretches, np.int64).reshape(-1, 2).T
         return np.asarray(distance / np.maximum(strokes[last] - strokes[first], 1)[:, None])
 
-    def _costs(
+    def _terms(
         self,
         motion: RigidMotion,
         spans_s: Sequence[tuple[float, float]],
-        action: np.ndarray,
-        gesture: np.ndarray,
+        action: IntArray,
+        gesture: IntArray,
         wrong: FloatArray,
         *,
         glance: int,
     ) -> FloatArray:
-        """Return ``(p,)``, what pairs of an action and a stretch cost; infinity beyond limits."""
-        terms = self._verification.terms(
+        """Return ``(p, 9)``, terms of pairs of an action and a stretch, infinite beyond limits."""
+        return self._verification.terms(
             traits_of_parts(motion, spans_s, figure_height_m=DEFAULT_FIGURE_HEIGHT_M),
             action,
             gesture,
@@ -145,8 +152,6 @@ class LimitRecognizer:
             most=self.limit[action],
             every=glance,
         )
-        cost = terms.sum(axis=1)
-        return np.where(cost <= self.limit[action], cost, np.inf)
 
 
 def limits(exemplars: Sequence[Exemplar]) -> FloatArray:
@@ -191,7 +196,7 @@ def _span_s(first: int, last: int, runs: Sequence[TokenRun]) -> tuple[float, flo
 
 def _unique_spans_s(
     stretches: Sequence[tuple[int, int]], runs: Sequence[TokenRun]
-) -> tuple[list[tuple[float, float]], np.ndarray]:
+) -> tuple[list[tuple[float, float]], IntArray]:
     """Return each stretch's time with its loose ends, once, and which one is whose."""
     of: dict[tuple[int, int], tuple[float, float]] = {}
     for first, last in dict.fromkeys(stretches):
