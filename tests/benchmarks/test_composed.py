@@ -14,6 +14,7 @@ from benchmarks.composed import (
     FEW_CLASSES,
     FRAME,
     MOST_TAKES,
+    NOISE_M,
     OTHERS_SHARE,
     PAUSE_S,
     RATE_HZ,
@@ -82,6 +83,15 @@ def test_between_takes_a_hand_goes_back_and_pauses(people, idle):
     _, _, _, gestures = composed(people, idle)
     for before, after in pairwise(gestures):
         assert after.start_s - before.end_s > PAUSE_S[0] + 0.4  # and two movements
+
+
+def test_pauses_and_movements_have_the_noise_of_a_camera(people, idle):
+    _, free, held, _ = composed(people, idle)
+    rest = resampled(free, SENSOR_HZ).selected(~held[:: round(RATE_HZ / SENSOR_HZ)])
+    # Third differences: what is left of a smooth movement is far below the noise's.
+    noise_m = np.diff(rest.position_m, 3, axis=0) / np.sqrt(20.0)
+    spread_m = np.median(np.abs(noise_m)) / 0.6745
+    assert 0.8 * NOISE_M < spread_m < 1.6 * NOISE_M
 
 
 @pytest.mark.parametrize("seed", range(10))

@@ -19,7 +19,7 @@ OWN_2 = Teaching(own=2)
 @pytest.fixture(scope="module")
 def found(people, idle):
     one = next(sessions_of(people, idle, [OWN_2], seed=1))
-    return one, sessions.trials([one], idle[:1])
+    return one, sessions.trials([one], idle)
 
 
 def test_every_form_is_tried_free_and_drawn(found):
@@ -35,6 +35,7 @@ def test_every_form_is_tried_free_and_drawn(found):
         assert one.counts.known == known
         assert one.counts.known + one.counts.others == len(session.gestures)
         assert one.spotting_s > 0.0
+        assert (one.idle_minutes > 0.0) == (one.said == FREE)
 
 
 def test_with_the_trigger_held_made_up_gestures_are_found(found):
@@ -50,13 +51,13 @@ def test_variants_are_tried_where_nothing_is_said(people, idle, monkeypatch):
     monkeypatch.setattr(sessions, "FORMS", {})
     monkeypatch.setattr(sessions, "VARIANTS", {"silent": lambda actions: Silent()})
     one = next(sessions_of(people, idle, [OWN_2], seed=1))
-    counts = sessions.trials([one], idle[:1]).of("silent", FREE, OWN_2).counts
+    counts = sessions.trials([one], idle).of("silent", FREE, OWN_2).counts
     assert (counts.hits, counts.false, counts.left_alone) == (0, 0, 1.0)
 
 
 def test_trials_are_added_up_by_what_is_asked_for():
     def trial(person: int, said: str, small: bool, hits: int) -> Trial:
-        return Trial(OURS, said, OWN_2, small, person, Tally(known=4, hits=hits), 0.0, 0.0, 0)
+        return Trial(OURS, said, OWN_2, small, person, Tally(known=4, hits=hits), 0.0, 0.0)
 
     free = (trial(2, FREE, True, 1), trial(1, FREE, False, 2), trial(2, FREE, False, 3))
     trials = Trials((*free, trial(1, DRAWN, True, 4)))
@@ -99,12 +100,9 @@ def test_every_table_has_a_row_for_each_form(found, capsys, monkeypatch):
     for show, rows in (
         (lambda: sessions.print_found(both, FREE), 3 + 2),  # and two of what ours gains
         (lambda: sessions.print_drawn(both), 4),
-        (lambda: sessions.print_idle(both, minutes=0.5), 3),
+        (lambda: sessions.print_idle(both), 3),
         (lambda: sessions.print_times(both), 3),
     ):
         show()
         out = capsys.readouterr().out
         assert out.count("\n  own 2") == rows, out
-    sessions.print_idle(both, minutes=0.5)
-    (seen,) = {one.idle for one in both.of(PLAIN, FREE, OWN_2).every}
-    assert f"{PLAIN}  {seen / 0.5:5.2f}, {seen / 0.5:5.2f};" in capsys.readouterr().out
