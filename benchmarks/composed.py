@@ -17,6 +17,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
+from scipy.signal import savgol_filter
 
 from benchmarks.gestures import DATA, Gestures
 from smd.doodle import Doodle
@@ -64,6 +65,9 @@ BOW = 0.08
 NOISE_M, NOISE_RAD = 0.3e-3, np.radians(0.5)
 """Spread of the camera's noise about each axis, where a hand rests within a take (people 1 to 7):
 what a parabola of five samples leaves is 0.4 mm and 0.5 degrees in the median."""
+
+REST_M_S = 0.05
+"""A hand that is slower rests, as far as its noise is concerned."""
 
 SLACK_S = 0.2
 """The trigger is pressed at most so long before a take, and let go at most so long after it."""
@@ -291,6 +295,30 @@ def compose(
         early_s, late_s = rng.uniform(0.0, SLACK_S, 2)
         held |= (free.time_s >= one.start_s - early_s) & (free.time_s <= one.end_s + late_s)
     return free, held, gestures
+
+
+def tremble(sessions: Iterable[Session]) -> tuple[FloatArray, FloatArray]:
+    """Return by how much hands tremble at rest, in takes and between them.
+
+    Each is the median of what parabolas through five samples of the sensor leave of position and
+    of orientation, ``(2,)`` in metres and radians, where a hand is slower than `REST_M_S`.
+    """
+    left: list[tuple[FloatArray, FloatArray]] = []
+    for session in sessions:
+        seen = resampled(session.free, SENSOR_HZ)
+        rough_m, rough_q = (
+            np.linalg.norm(each - savgol_filter(each, 5, 2, axis=0), axis=1)
+            for each in (seen.position_m, seen.orientation_xyzw)
+        )
+        speed_m_s = np.linalg.norm(np.gradient(seen.position_m, axis=0), axis=1) * SENSOR_HZ
+        taken = np.zeros(len(seen), bool)
+        for one in session.gestures:
+            taken |= (seen.time_s >= one.start_s) & (seen.time_s <= one.end_s)
+        rough = np.stack([rough_m, 2.0 * rough_q], axis=1)
+        rests = speed_m_s < REST_M_S
+        left.append((rough[rests & taken], rough[rests & ~taken]))
+    own, between = (np.concatenate(each) for each in zip(*left, strict=True))
+    return np.median(own, axis=0), np.median(between, axis=0)
 
 
 def resampled(doodle: Doodle, rate_hz: float) -> Doodle:

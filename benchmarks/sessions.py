@@ -28,6 +28,7 @@ from benchmarks.composed import (
     minutes_of,
     read_idle,
     sessions_of,
+    tremble,
 )
 from benchmarks.gestures import DATA, REPORTED, learned_action, read_gestures
 from benchmarks.guards import (
@@ -182,9 +183,10 @@ def print_sizes(sessions: Sequence[Session], people: Sequence[int]) -> None:
         f"{len({session.person for session in sessions})} people, "
         f"{minutes_of(session.free for session in sessions):.1f} min, {len(gestures)} gestures, "
         f"{foreign} of them of classes that the library does not hold; libraries of "
-        f"{min(classes)} to {max(classes)} classes",
-        flush=True,
+        f"{min(classes)} to {max(classes)} classes"
     )
+    told = [f"{1e3 * m:.2f} mm and {np.degrees(rad):.2f} degrees" for m, rad in tremble(sessions)]
+    print(f"at rest, hands tremble by {told[0]} within takes, by {told[1]} between", flush=True)
 
 
 def print_found(found: Trials, said: str) -> None:

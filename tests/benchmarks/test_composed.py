@@ -27,6 +27,7 @@ from benchmarks.composed import (
     resampled,
     session_of,
     sessions_of,
+    tremble,
 )
 from benchmarks.gestures import read_gestures
 from smd.doodle import Doodle
@@ -92,6 +93,13 @@ def test_pauses_and_movements_have_the_noise_of_a_camera(people, idle):
     noise_m = np.diff(rest.position_m, 3, axis=0) / np.sqrt(20.0)
     spread_m = np.median(np.abs(noise_m)) / 0.6745
     assert 0.8 * NOISE_M < spread_m < 1.6 * NOISE_M
+
+
+def test_real_hands_tremble_alike_in_takes_and_between(shared_data):
+    paths, _ = idle_files(shared_data / "idle")
+    data = read_gestures((1, 2, 3), FRAME)
+    own, between = tremble(sessions_of(data, read_idle(paths), [OWN_2], seed=9))
+    np.testing.assert_allclose(between, own, rtol=0.35)
 
 
 @pytest.mark.parametrize("seed", range(10))
