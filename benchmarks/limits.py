@@ -20,13 +20,13 @@ from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import Exemplar
-from smd.recognition.proposals import between_rests, explaining, without_stir
+from smd.recognition.proposals import Proposal, explaining, rest_to_rest, without_stir
 from smd.recognition.recognizer import with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import TokenRun
 from smd.recognition.traits import COURSES, traits_of_parts
-from smd.recognition.verification import GLANCE, WEIGHTS, WRONG, verification_of
+from smd.recognition.verification import GLANCE, WEIGHTS, WRONG, Verification
 from smd.smoothing import smooth
 
 ACTION, UNEXPLAINED = 0.3, 20.0
@@ -63,7 +63,7 @@ class LimitRecognizer:
         self.names = tuple(patterns)
         self.limit = tolerance * limits(exemplars)
         self._bank = compile_library(patterns, None)
-        self._verification = verification_of(exemplars)
+        self._verification = Verification(tuple(exemplars))
 
     def spot(self, doodle: Doodle) -> list[Named]:
         """Find the actions in a doodle, in time order."""
@@ -95,8 +95,15 @@ class LimitRecognizer:
         """Return the best cut of the proposals that are within their action's limit."""
         prices = run_costs(runs, DEFAULT_COSTS)
         found = explaining(self._bank, runs, prices)
-        found += between_rests(self._bank, runs, prices)
-        proposed = without_stir(found, runs)
+        rests = rest_to_rest(prices.is_still)
+        read = prices.of_reading(self._bank, runs)
+        edits = least_costs_of_parts(self._bank, rests, read=read, skip=prices.skip).tolist()
+        found += [
+            Proposal(action, *stretch, distance)
+            for stretch, distances in zip(rests, edits, strict=True)
+            for action, distance in enumerate(distances)
+        ]
+        proposed = _without_stir(found, runs)
         if not proposed:
             return []
         strokes = np.concatenate([[0], np.cumsum(~prices.is_still)])
@@ -187,6 +194,16 @@ def _pooled(costs: FloatArray, prior: float) -> float:
     count = min(len(costs), MOST_COUNTED)
     mean = float(np.log(costs + 0.1).mean()) if count else 0.0
     return float(np.exp((PRIOR_COSTS * np.log(prior) + count * mean) / (PRIOR_COSTS + count)))
+
+
+def _without_stir(found: Sequence[Proposal], runs: Sequence[TokenRun]) -> list[Proposal]:
+    """Return proposals without stir at their ends; of an action's for one stretch the nearest."""
+    tight: dict[tuple[int, int, int], float] = {}
+    meant = without_stir([(one.first, one.last) for one in found], runs)
+    for one, stretch in zip(found, meant, strict=True):
+        key = (one.action, *stretch)
+        tight[key] = min(one.distance, tight.get(key, np.inf))
+    return [Proposal(*key, distance) for key, distance in tight.items()]
 
 
 def _span_s(first: int, last: int, runs: Sequence[TokenRun]) -> tuple[float, float]:

@@ -42,6 +42,7 @@ from benchmarks.guards import (
 from benchmarks.limits import LimitRecognizer
 from benchmarks.spotter import Spotter
 from benchmarks.tally import Tally, f1_gain_interval, f1_interval, tally
+from benchmarks.variants import VARIANTS
 from smd.doodle import Doodle
 from smd.recognition import Recognizer
 
@@ -59,9 +60,6 @@ OURS, LIMITS, PLAIN = "ours", "with limits", "plain spotter"
 
 FORMS: Mapping[str, Make] = {OURS: Recognizer, LIMITS: LimitRecognizer}
 """Those that take actions; the plain spotter takes examples."""
-
-VARIANTS: Mapping[str, Make] = {}
-"""Ours with a part taken away, to tell what each part is worth."""
 
 FREE, DRAWN, DRAWN_STRICT = "free", "drawn", f"drawn, tolerance {STRICT:g}"
 """What is said of drawing: nothing, or when the trigger is held."""
@@ -165,7 +163,7 @@ def _forms(session: Session) -> Iterator[tuple[str, Spots, float, Sequence[str]]
         started = time.process_time()
         made = make(actions)
         making_s = learning_s + time.process_time() - started
-        yield form, made, making_s, (FREE,) if form in VARIANTS else (FREE, DRAWN)
+        yield form, made, making_s, (FREE, DRAWN)
     started = time.process_time()
     plain = Spotter(session.examples)
     yield PLAIN, plain, time.process_time() - started, (FREE, DRAWN)
