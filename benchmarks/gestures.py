@@ -19,7 +19,7 @@ import numpy as np
 
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.errors import LearningError
-from smd.formats import read_recording
+from smd.formats import SourceFrame, read_recording
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition import Recognizer, learn_action
 from smd.recognition.action import Action
@@ -49,13 +49,13 @@ class Gestures:
     person: IntArray
 
 
-def read_gestures(people: Sequence[int]) -> Gestures:
+def read_gestures(people: Sequence[int], frame: SourceFrame | None = None) -> Gestures:
     """Read the gestures of some people."""
     doodles, labels, persons = [], [], []
     for path in sorted((DATA / "gestures").glob("g*.csv")):
         label, person = map(int, re.match(r"g(\d+)_f\d_s(\d+)", path.name).groups())  # type: ignore[union-attr]
         if person in people:
-            doodles.append(read_recording(path).doodles[0])
+            doodles.append(read_recording(path, frame).doodles[0])
             labels.append(label)
             persons.append(person)
     return Gestures(tuple(doodles), np.array(labels), np.array(persons))
@@ -93,13 +93,18 @@ def learned_actions(data: Gestures, learned: IntArray) -> list[Action]:
     actions = []
     for label in np.unique(data.label[learned]):
         own = [data.doodles[i] for i in learned[data.label[learned] == label]]
-        try:
-            few = len(own) <= EXAMPLES  # a pattern of dozens of people would say little, slowly
-            learn = learn_action if few else _learned_anyhow
-            actions.append(learn(str(label), own))
-        except LearningError:  # examples with nothing in common
-            actions.append(_learned_anyhow(str(label), own))
+        few = len(own) <= EXAMPLES  # a pattern of dozens of people would say little, slowly
+        learn = learned_action if few else _learned_anyhow
+        actions.append(learn(str(label), own))
     return actions
+
+
+def learned_action(name: str, doodles: Sequence[Doodle]) -> Action:
+    """Return an action, though its examples may have nothing in common."""
+    try:
+        return learn_action(name, doodles)
+    except LearningError:
+        return _learned_anyhow(name, doodles)
 
 
 def ours(

@@ -248,13 +248,7 @@ def changed(doodle: Doodle, how: str, rng: np.random.Generator) -> Doodle:
     kept = np.unique(
         np.searchsorted(doodle.time_s, np.arange(doodle.time_s[0], doodle.time_s[-1], 1 / 60.0))
     )
-    return replace(
-        doodle,
-        time_s=doodle.time_s[kept],
-        position_m=position[kept],
-        orientation_xyzw=orientation[kept],
-        drawing=doodle.drawing[kept],
-    )
+    return doodle.selected(kept)
 
 
 def flips(before: FloatArray, after: FloatArray, meant: FloatArray) -> str:

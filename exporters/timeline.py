@@ -76,7 +76,9 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         motions = list(_motions(recording.of(part.device)))
         strings = [
             tokenize(
-                motion, figure_height_m=score.figure_height_m, drawing=_drawing(doodle, motion)
+                motion,
+                figure_height_m=score.figure_height_m,
+                drawing=doodle.drawing_at(motion.time_s),
             )
             for doodle, motion in motions
         ]
@@ -108,13 +110,6 @@ def _motions(doodles: Iterable[Doodle]) -> Iterable[tuple[Doodle, RigidMotion]]:
             yield doodle, smooth(doodle)
         except DoodleError:
             continue
-
-
-def _drawing(doodle: Doodle, motion: RigidMotion) -> np.ndarray:
-    """Return whether the user meant to draw at each sample of the smoothed motion."""
-    assert doodle.drawing is not None  # the constructor fills it
-    nearest = np.searchsorted(doodle.time_s, motion.time_s + 1e-9, side="right") - 1
-    return doodle.drawing[np.clip(nearest, 0, len(doodle) - 1)]
 
 
 def _sheet(count: int, first_s: float, last_s: float) -> tuple[Figure, list[dict[str, Any]]]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
 from smd.errors import DoodleError
-from smd.geometry.arrays import BoolArray, FloatArray, frozen_array
+from smd.geometry.arrays import BoolArray, FloatArray, IntArray, frozen_array
 from smd.geometry.rotations import sign_continuous
 
 DEFAULT_FIGURE_HEIGHT_M = 0.175
@@ -28,14 +28,15 @@ class Doodle:
     orientation_xyzw : (n, 4) float64, unit length, no sign flips between neighbours; turns the
         prop's frame (+Z front, +X left, +Y up) into the world's.
     device : name of the device that drew it.
-    drawing : (n,) bool, true while the user meant to draw (trigger held); default all true.
+    drawing : (n,) bool, true while the user meant to draw (trigger held); None where nothing says
+        so, which is not the same as drawn throughout.
     """
 
     time_s: FloatArray
     position_m: FloatArray
     orientation_xyzw: FloatArray
     device: str = "prop"
-    drawing: BoolArray = None  # type: ignore[assignment]  # filled in below
+    drawing: BoolArray | None = None
 
     def __post_init__(self) -> None:
         time_s = frozen_array("time_s", self.time_s, (None,), DoodleError)
@@ -57,13 +58,12 @@ class Doodle:
         orientation = frozen_array(
             "orientation_xyzw", sign_continuous(q / length), (n, 4), DoodleError
         )
-        drawing = np.ones(n, bool) if self.drawing is None else self.drawing
         object.__setattr__(self, "time_s", time_s)
         object.__setattr__(self, "position_m", position)
         object.__setattr__(self, "orientation_xyzw", orientation)
-        object.__setattr__(
-            self, "drawing", frozen_array("drawing", drawing, (n,), DoodleError, np.bool_)
-        )
+        if self.drawing is not None:
+            drawing = frozen_array("drawing", self.drawing, (n,), DoodleError, np.bool_)
+            object.__setattr__(self, "drawing", drawing)
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -72,6 +72,27 @@ class Doodle:
     def duration_s(self) -> float:
         """Time from the first to the last sample."""
         return float(self.time_s[-1] - self.time_s[0])
+
+    def drawing_at(self, time_s: FloatArray) -> BoolArray | None:
+        """Return whether the user meant to draw at some times ``(m,)``; None where nothing says so.
+
+        What a sample says holds until the next one, and that of the first one before it.
+        """
+        if self.drawing is None:
+            return None
+        # + 1e-9: times that were counted from a rate may fall a little short of the sample's.
+        before = np.searchsorted(self.time_s, time_s + 1e-9, side="right") - 1
+        return self.drawing[np.maximum(before, 0)]
+
+    def selected(self, rows: IntArray | BoolArray) -> Doodle:
+        """Return the doodle of some of the samples: their indices in order, or a mask ``(n,)``."""
+        return replace(
+            self,
+            time_s=self.time_s[rows],
+            position_m=self.position_m[rows],
+            orientation_xyzw=self.orientation_xyzw[rows],
+            drawing=None if self.drawing is None else self.drawing[rows],
+        )
 
 
 DropoutKind = Literal["gap", "frozen", "invalid"]

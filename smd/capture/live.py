@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from laban import Effort, EffortModel, RigidMotion
 from laban.effort import AXES
 from laban.windows import WINDOW_S, EffortStream
-from smd.capture.source import Pose
+from smd.capture.source import Row
 from smd.errors import DoodleError
 from smd.formats.dropouts import LONGEST_BRIDGE_S
 from smd.formats.frame import Mount
@@ -71,8 +71,8 @@ class LiveRecognition:
         self._turn_xyzw = None if mount is None else mount.tracker_from_prop_xyzw
         self._followers: dict[str, _Follower] = {}
 
-    def push(self, time_s: float, rows: Mapping[str, tuple[Pose | None, bool]]) -> list[Decided]:
-        """Take a moment's poses and drawing, by serial; return the phrases that it decides."""
+    def push(self, time_s: float, rows: Mapping[str, Row]) -> list[Decided]:
+        """Take a moment, by serial; return the phrases that it decides."""
         decided: list[Decided] = []
         for serial, (pose, drawing) in rows.items():
             if pose is None:
@@ -119,7 +119,11 @@ class _Follower:
         self.last_s = -np.inf
 
     def push(
-        self, time_s: float, position_m: ArrayLike, orientation_xyzw: ArrayLike, drawing: bool
+        self,
+        time_s: float,
+        position_m: ArrayLike,
+        orientation_xyzw: ArrayLike,
+        drawing: bool | None,
     ) -> list[Decided]:
         """Take one sample; return the phrases that it decides."""
         self.last_s = time_s

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 
-from smd.capture.source import Pose
+from smd.capture.source import Pose, Row
 from smd.errors import CaptureError
 from smd.formats.native import COLUMNS, GROWS, SCHEMA, VERSION, device_cell
 
@@ -79,8 +79,8 @@ class Recorder:
     ) -> None:
         self.close()
 
-    def write(self, time_s: float, rows: Mapping[str, tuple[Pose | None, bool]]) -> None:
-        """Append one moment: pose, or None where tracking was lost, and drawing, by serial.
+    def write(self, time_s: float, rows: Mapping[str, Row]) -> None:
+        """Append one moment, by serial.
 
         Raises
         ------
@@ -105,10 +105,11 @@ class Recorder:
         finally:
             os.close(self._fd)
 
-    def _row(self, serial: str, pose: Pose | None, drawing: bool) -> str:
+    def _row(self, serial: str, pose: Pose | None, drawing: bool | None) -> str:
         """Return what the file says of one device at the time of the last row."""
         numbers = _LOST if pose is None else _POSE.format(*pose)
-        return f"{self.last_s:.6f},{self._cells[serial]},{numbers},{int(drawing)}\n"
+        mark = "" if drawing is None else int(drawing)
+        return f"{self.last_s:.6f},{self._cells[serial]},{numbers},{mark}\n"
 
     def _append(self, text: str) -> None:
         """Write all of a text, or none of it."""

@@ -19,8 +19,8 @@ BETWEEN_S = 1.0
 class ReplaySource:
     """Recordings, one after another, as fast as they are taken.
 
-    Where a recording says when the user drew, the trigger was pressed; after each recording it
-    is let go. Rows that were lost do not come.
+    The trigger is pressed while the user drew, as far as a recording says so, and else all along;
+    after each recording it is let go. Rows that were lost do not come.
 
     Parameters
     ----------
@@ -80,12 +80,13 @@ def _frames(recording: Recording, start_s: float) -> Iterator[Frame]:
 
 def _samples(doodle: Doodle) -> Iterator[tuple[float, Sample]]:
     """Yield time and sample of each row of a doodle."""
-    for time_s, position, orientation, drawing in zip(
+    pressed = [True] * len(doodle) if doodle.drawing is None else doodle.drawing.tolist()
+    for time_s, position, orientation, trigger in zip(
         doodle.time_s.tolist(),
         doodle.position_m.tolist(),
         doodle.orientation_xyzw.tolist(),
-        doodle.drawing.tolist(),
+        pressed,
         strict=True,
     ):
         pose: Pose = (*position, *orientation)
-        yield time_s, Sample(doodle.device, pose, drawing)
+        yield time_s, Sample(doodle.device, pose, trigger)

@@ -12,6 +12,10 @@ Tracking = Literal["tracked", "lost", "away"]
 Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
 """x, y, z in metres and qx, qy, qz, qw, in the world of `docs/conventions.md`."""
 
+Row: TypeAlias = tuple[Pose | None, bool | None]
+"""What is kept of a device at one moment: its pose, None where tracking was lost, and whether the
+user means to draw, None where nothing says so."""
+
 
 @dataclass(frozen=True, slots=True)
 class Device:

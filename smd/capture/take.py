@@ -7,7 +7,7 @@ from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 
 from smd.capture.recorder import Recorder
-from smd.capture.source import Frame, Pose
+from smd.capture.source import Frame, Row
 from smd.errors import CaptureError
 
 SLOWEST_HZ, FASTEST_HZ = 10.0, 1000.0
@@ -79,7 +79,7 @@ def record(
         Serials of the devices to record.
     hold_to_draw
         Whether a device draws only while its trigger is held (one without a trigger: while any
-        trigger is). Otherwise all is drawn.
+        trigger is). Otherwise the recording does not say what was meant.
     seconds
         Length of the take.
     """
@@ -102,14 +102,12 @@ def record(
         yield progress
 
 
-def rows_of(
-    frame: Frame, serials: Container[str], *, hold_to_draw: bool
-) -> dict[str, tuple[Pose | None, bool]]:
+def rows_of(frame: Frame, serials: Container[str], *, hold_to_draw: bool) -> dict[str, Row]:
     """Return what a frame says of some devices: the pose of each, and whether it draws."""
     any_held = any(sample.trigger for sample in frame.samples)
-    rows = {}
+    rows: dict[str, Row] = {}
     for serial, pose, trigger, _ in frame.samples:
         if serial in serials:
             held = any_held if trigger is None else trigger
-            rows[serial] = (pose, held or not hold_to_draw)
+            rows[serial] = (pose, held if hold_to_draw else None)
     return rows

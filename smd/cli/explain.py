@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from smd.recognition import Recognizer
@@ -38,8 +37,7 @@ def explanation(score: Score, recording: Recording, cast: Cast) -> Iterator[str]
 def _during(doodle: Doodle, phrase: Phrase) -> Doodle:
     """Return the doodle from a phrase's start to its end."""
     kept = (doodle.time_s >= phrase.start_s - 1e-3) & (doodle.time_s <= phrase.end_s + 1e-3)
-    fields = ("time_s", "position_m", "orientation_xyzw", "drawing")
-    return replace(doodle, **{name: getattr(doodle, name)[kept] for name in fields})
+    return doodle.selected(kept)
 
 
 def _weighed(phrase: Phrase, matches: list[Match]) -> Iterator[str]:

@@ -96,7 +96,8 @@ def drawn_doodle(path: Path, options: reading.ReadingOptions) -> Doodle:
     """Return the one doodle of a performance: that of the device whose trigger was held."""
     from smd.errors import RecordingError
 
-    drawn = [doodle for doodle in options.read(path).doodles if doodle.drawing.any()]
+    doodles = options.read(path).doodles
+    drawn = [one for one in doodles if one.drawing is not None and one.drawing.any()]
     if len(drawn) != 1:
         devices = ", ".join(dict.fromkeys(doodle.device for doodle in drawn)) or "none"
         raise RecordingError(

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from laban import EffortModel
     from smd.capture.live import Decided, LiveRecognition
     from smd.capture.shelf import Shelf
-    from smd.capture.source import Pose
+    from smd.capture.source import Row
     from smd.formats import Mount
     from smd.recognition import Recognizer
 
@@ -83,7 +83,7 @@ class Understander:
         self._live = LiveRecognition(self._recognizer, self._model, names, self._how.mount)
         _say(f"{take.name}:")
 
-    def follow(self, time_s: float, rows: dict[str, tuple[Pose | None, bool]]) -> None:
+    def follow(self, time_s: float, rows: dict[str, Row]) -> None:
         """Take a moment of the story, and print the phrases that it decides."""
         if self._live is not None:
             _print(self._live.push(time_s, rows))

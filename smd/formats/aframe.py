@@ -64,7 +64,6 @@ def read(text: str, name: str) -> Content:
             time_s=rows[:, 0] / 1000.0,
             position=rows[:, 1:4],
             quaternion=_quaternion_from_degrees(rows[:, 4:7]),
-            drawing=np.ones(len(rows), bool),
             place=partial(_place, device),
         )
         for device, rows in numbers.items()

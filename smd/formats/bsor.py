@@ -66,7 +66,6 @@ def read(path: Path, name: str) -> Content:
             time_s=time_s[rows],
             position=frames["poses"]["position"][rows, i].astype(np.float64),
             quaternion=frames["poses"]["quaternion"][rows, i].astype(np.float64),
-            drawing=np.ones(len(rows), bool),
             place=partial(_place, rows.tolist()),
         )
         for i, device in enumerate(DEVICES)

@@ -26,8 +26,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-import numpy as np
-
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.table import Encoder, cells, line_of_row, read_table
 from smd.formats.tracks import Content, Track, fault, shown
@@ -81,7 +79,6 @@ def read(text: str, name: str) -> Content:
             time_s=values[:, 1],
             position=values[:, [parts[part] for part in ("x", "y", "z")]],
             quaternion=values[:, [parts[part] for part in ("qx", "qy", "qz", "qw")]],
-            drawing=np.ones(len(values), bool),
             place=partial(line_of_row, lines, columns + 1),
         )
         for body, parts in bodies.items()

@@ -8,7 +8,8 @@ Optional ``# key: value`` lines, a header, rows::
     0.000,left,0.10,0.95,0.20,0,0,0,1,1
 
 The header names the columns, in any order; ``t``, ``time`` and ``timestamp`` mean ``time_s``;
-without ``device`` the file is one doodle; columns with other names are left alone. Without a
+without ``device`` the file is one doodle; columns with other names are left alone. ``drawing``
+is empty in all rows of a doodle of which nothing says when the user meant to draw. Without a
 header the columns are time, position and quaternion.
 """
 
@@ -21,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
-from smd.doodle import Recording
+from smd.doodle import Doodle, Recording
 from smd.errors import RecordingError
 from smd.files import replacing
 from smd.formats.frame import SourceFrame
@@ -41,7 +42,7 @@ _POSITION = ("x", "y", "z")
 _QUATERNION = ("qx", "qy", "qz", "qw")
 COLUMNS = ("time_s", "device", *_POSITION, *_QUATERNION, "drawing")
 _TIMES = ("time_s", "t", "time", "timestamp")
-_TRUTH = {"1": 1.0, "true": 1.0, "1.0": 1.0, "0": 0.0, "false": 0.0, "0.0": 0.0}
+_TRUTH = {"1": 1.0, "true": 1.0, "1.0": 1.0, "0": 0.0, "false": 0.0, "0.0": 0.0, "": np.nan}
 
 
 def matches(head: str) -> bool:
@@ -72,7 +73,7 @@ def read(text: str, name: str) -> Content:
     devices: dict[str, float] = {}
     values = read_table(name, lines, first, ",", columns, _encoders(columns, devices))
     where = {column: i for i, column in enumerate(columns)}
-    drawing = values[:, where["drawing"]] > 0 if "drawing" in where else np.ones(len(values), bool)
+    drawing = values[:, where["drawing"]] if "drawing" in where else None
     code = values[:, where["device"]] if "device" in where else np.zeros(len(values))
     position = values[:, [where[column] for column in _POSITION]]
     quaternion = values[:, [where[column] for column in _QUATERNION]]
@@ -82,8 +83,8 @@ def read(text: str, name: str) -> Content:
             time_s=values[rows, where["time_s"]],
             position=position[rows],
             quaternion=quaternion[rows],
-            drawing=drawing[rows],
             place=partial(_place, lines, first, rows),
+            drawing=None if drawing is None else drawing[rows],
         )
         for device, rows in zip(devices or [ONLY_DEVICE], _groups(code), strict=True)
     ]
@@ -120,7 +121,9 @@ def write_recording(recording: Recording, path: str | Path) -> None:
     """Write a recording as native CSV, every number so that it reads back the same.
 
     Where a doodle was split, its rows leave the gap; metadata keys and values lose line breaks
-    and spaces at their ends. What was lost (``recording.dropouts``) is not written.
+    and spaces at their ends. What was lost (``recording.dropouts``) is not written. There is a
+    column ``drawing`` where a doodle says when the user meant to draw; in the rows of doodles that
+    do not, it is empty.
 
     Raises
     ------
@@ -129,8 +132,8 @@ def write_recording(recording: Recording, path: str | Path) -> None:
     ExportError
         If the file cannot be written.
     """
-    always = all(doodle.drawing.all() for doodle in recording.doodles)
-    header = COLUMNS[:-1] if always else COLUMNS
+    silent = all(doodle.drawing is None for doodle in recording.doodles)
+    header = COLUMNS[:-1] if silent else COLUMNS
     with replacing(Path(path)) as temporary, temporary.open("w", encoding="utf-8", newline="") as f:
         f.write(f"# schema: {SCHEMA}\n# version: {VERSION}\n")
         for key, value in recording.metadata.items():
@@ -140,10 +143,16 @@ def write_recording(recording: Recording, path: str | Path) -> None:
         for doodle in recording.doodles:
             device = _writable_device(doodle.device)
             pose = np.column_stack([doodle.position_m, doodle.orientation_xyzw])
-            for time_s, numbers, mark in zip(
-                doodle.time_s.tolist(), pose.tolist(), doodle.drawing.tolist(), strict=True
-            ):
-                rows.writerow([time_s, device, *numbers, *([] if always else [int(mark)])])
+            times_s = doodle.time_s.tolist()
+            for time_s, numbers, mark in zip(times_s, pose.tolist(), _marks(doodle), strict=True):
+                rows.writerow([time_s, device, *numbers, *([] if silent else [mark])])
+
+
+def _marks(doodle: Doodle) -> list[str]:
+    """Return the cells of a doodle's column ``drawing``."""
+    if doodle.drawing is None:
+        return [""] * len(doodle)
+    return ["1" if mark else "0" for mark in doodle.drawing.tolist()]
 
 
 def _metadata(name: str, lines: Sequence[str]) -> dict[str, str]:
@@ -218,7 +227,7 @@ def _device_encoder(devices: dict[str, float]) -> Encoder:
 
 
 def _drawing(cell: str) -> float:
-    """Return 1 for true and 0 for false."""
+    """Return 1 for true, 0 for false, and NaN for a cell that does not say."""
     try:
         return _TRUTH[cell.strip().lower()]
     except KeyError:

@@ -15,7 +15,7 @@ from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
 from smd.formats.frame import Conversion, SourceFrame
 from smd.formats.text import read_text, require_file
 from smd.formats.tracks import Content, Track, fault, shown
-from smd.geometry.arrays import BoolArray
+from smd.geometry.arrays import BoolArray, IntArray
 from smd.geometry.rotations import normalized
 
 FORMATS = (aframe, motive, native, tum)
@@ -148,8 +148,23 @@ def _doodles(
             position_m=position_m[rows],
             orientation_xyzw=orientation_xyzw[rows],
             device=track.device,
-            drawing=track.drawing[rows],
+            drawing=_drawing(name, track, rows),
         )
         for rows in tracking.stretches
         if len(rows) > 1
     ], tracking.dropouts
+
+
+def _drawing(name: str, track: Track, rows: IntArray) -> BoolArray | None:
+    """Return when the user meant to draw in one doodle; None where no row of it says so."""
+    if track.drawing is None:
+        return None
+    drawing = track.drawing[rows]
+    silent = np.isnan(drawing)
+    if silent.all():
+        return None
+    if silent.any():
+        place = track.place(int(rows[np.argmax(silent)]))
+        expected = "0 or 1 in column drawing, as in other rows of the doodle"
+        raise fault(name, place, expected, "an empty cell")
+    return drawing > 0

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from smd.errors import RecordingError
 from smd.formats.frame import SourceFrame
-from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.arrays import FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,16 +20,17 @@ class Track:
     time_s : (n,).
     position : (n, 3) in the file's axes and unit; NaN where the file has no number.
     quaternion : (n, 4) in the file's axes and order; NaN where the file has no number.
-    drawing : (n,) bool; all true where the file does not say.
     place : where row i stands in the file, for messages ("line 12").
+    drawing : (n,) 1 while the user meant to draw, else 0; NaN where a row does not say, and None
+        where the file never does.
     """
 
     device: str
     time_s: FloatArray
     position: FloatArray
     quaternion: FloatArray
-    drawing: BoolArray
     place: Callable[[int], str]
+    drawing: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

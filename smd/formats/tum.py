@@ -12,8 +12,6 @@ from __future__ import annotations
 
 from functools import partial
 
-import numpy as np
-
 from smd.formats.frame import SourceFrame
 from smd.formats.native import ONLY_DEVICE
 from smd.formats.table import cells, is_row, line_of_row, number, read_table
@@ -46,7 +44,6 @@ def read(text: str, name: str) -> Content:
         time_s=values[:, 0],
         position=values[:, 1:4],
         quaternion=values[:, 4:8],
-        drawing=np.ones(len(values), bool),
         place=partial(line_of_row, lines, 0),
     )
     return Content((track,), SourceFrame.ours(), clock_means_something=False)

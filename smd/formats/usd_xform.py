@@ -103,7 +103,6 @@ def _track(prim: UsdGeom.Xformable, device: str, stage: Usd.Stage) -> Track:
         time_s=np.array(times) / stage.GetTimeCodesPerSecond(),
         position=position,
         quaternion=quaternion,
-        drawing=np.ones(len(times), bool),
         place=partial(_place, device, times),
     )
 

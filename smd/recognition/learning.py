@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import dataclass
 
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.errors import DoodleError, LearningError
@@ -124,8 +122,8 @@ def learn_pattern(
 def doodle_runs(doodle: Doodle, figure_height_m: float) -> tuple[TokenRun, ...]:
     """Return a doodle's runs of tokens; where it was not meant to draw, it is still."""
     motion = smooth(doodle)
-    before = np.searchsorted(doodle.time_s, motion.time_s + 1e-9, side="right") - 1
-    return tokenize(motion, figure_height_m=figure_height_m, drawing=doodle.drawing[before])
+    drawing = doodle.drawing_at(motion.time_s)
+    return tokenize(motion, figure_height_m=figure_height_m, drawing=drawing)
 
 
 def without_rest(runs: Sequence[TokenRun]) -> tuple[TokenRun, ...]:
@@ -153,13 +151,7 @@ def _part(doodle: Doodle, start_s: float, end_s: float) -> Doodle:
     Cut closer, the one-sided fit at the end would overshoot, and draw a movement of its own.
     """
     kept = (doodle.time_s >= start_s - WINDOW_S) & (doodle.time_s <= end_s + WINDOW_S)
-    return replace(
-        doodle,
-        time_s=doodle.time_s[kept],
-        position_m=doodle.position_m[kept],
-        orientation_xyzw=doodle.orientation_xyzw[kept],
-        drawing=doodle.drawing[kept],
-    )
+    return doodle.selected(kept)
 
 
 def _strokes(runs: Sequence[TokenRun]) -> list[Stroke]:

@@ -191,10 +191,8 @@ class Recognizer:
 
     def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
         """Return the tokens of a doodle's smoothed motion; still where it was not drawn."""
-        before = np.searchsorted(doodle.time_s, motion.time_s + 1e-9, side="right") - 1
-        return tokenize(
-            motion, figure_height_m=self._figure_height_m, drawing=doodle.drawing[before]
-        )
+        drawing = doodle.drawing_at(motion.time_s)
+        return tokenize(motion, figure_height_m=self._figure_height_m, drawing=drawing)
 
     def spot_runs(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Span]:
         """Find the actions in a motion that is cut into tokens already."""

@@ -93,7 +93,7 @@ class RecognitionStream:
         self._settling_s = horizon_s - 2.0 * STEP_S
         self._smoothing = SmoothingStream()
         self._arrays: Arrays = ()  # of the motion that is not decided yet, and some before it
-        self._given: list[tuple[float, bool]] = []  # times of samples, and whether they draw
+        self._given: list[tuple[float, bool | None]] = []  # times of samples, and what they draw
         self._look_s = -np.inf  # when to look next
         self._decided_s = -np.inf  # what begins earlier is decided
         self._forgotten = 0  # runs before the motion that is kept
@@ -105,9 +105,11 @@ class RecognitionStream:
         time_s: float,
         position_m: ArrayLike,
         orientation_xyzw: ArrayLike,
-        drawing: bool = True,
+        drawing: bool | None = None,
     ) -> list[Span]:
         """Take one sample and return the spans that have become final, in time order.
+
+        ``drawing`` says whether the user means to draw; None where nothing says so.
 
         Raises
         ------
@@ -205,10 +207,11 @@ class RecognitionStream:
         return segments
 
     def _drawing(self, time_s: FloatArray) -> BoolArray:
-        """Return whether the user drew at each of the motion's times."""
+        """Return whether movement counts at each of the motion's times."""
         times, drawing = zip(*self._given, strict=True)
         before = np.searchsorted(times, time_s + 1e-9, side="right") - 1
-        return np.array(drawing)[np.maximum(before, 0)]
+        counts = np.array([each is not False for each in drawing])  # None: nothing says it does not
+        return counts[np.maximum(before, 0)]
 
     def _forget(self, runs: Sequence[TokenRun], needed_s: float) -> None:
         """Forget the motion before the first run that may still be part of an action."""

@@ -79,8 +79,8 @@ def tokenize(
     figure_height_m
         Height of the figurine that the prop stands for.
     drawing
-        ``(n,)``, false where the user did not mean to draw; such samples are STILL. All true if
-        absent.
+        ``(n,)``, false where the user did not mean to draw; such samples are STILL. None where
+        nothing says so: then all movement counts.
 
     Returns
     -------

@@ -42,8 +42,8 @@ def test_a_doodle_holds_read_only_copies_and_the_same_rotations(given_arrays):
     assert_allclose(np.linalg.norm(made.orientation_xyzw, axis=1), 1.0, atol=1e-12)
     assert_allclose(np.abs(np.sum(made.orientation_xyzw * q, axis=1)), 1.0, atol=1e-9)
     assert (np.sum(made.orientation_xyzw[1:] * made.orientation_xyzw[:-1], axis=1) >= 0).all()
-    assert made.drawing is not None and made.drawing.all()
-    for array in (made.time_s, made.position_m, made.orientation_xyzw, made.drawing):
+    drawn = Doodle(time_s, position, q, drawing=np.ones(len(time_s), bool))
+    for array in (made.time_s, made.position_m, made.orientation_xyzw, drawn.drawing):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
     with pytest.raises(FrozenInstanceError):
@@ -55,6 +55,31 @@ def test_a_doodle_does_not_change_when_its_input_does():
     made = Doodle([0.0, 0.1, 0.2], position, np.tile(IDENTITY, (3, 1)))
     position[:] = 7.0
     assert not made.position_m.any()
+
+
+def test_nothing_is_said_of_drawing_unless_it_is():
+    made = Doodle([0.0, 0.1], np.zeros((2, 3)), np.tile(IDENTITY, (2, 1)))
+    assert made.drawing is None
+    assert made.drawing_at(np.array([0.0, 0.05])) is None
+    assert made.selected(np.array([1])).drawing is None
+
+
+def test_what_a_sample_says_of_drawing_holds_until_the_next():
+    mark = np.array([True, False, True])
+    made = Doodle([0.0, 0.1, 0.2], np.zeros((3, 3)), np.tile(IDENTITY, (3, 1)), drawing=mark)
+    at_s = np.array([-1.0, 0.0, 0.099, 0.1 - 1e-10, 0.1, 0.15, 0.2, 9.0])
+    assert_array_equal(made.drawing_at(at_s), [True, True, True, False, False, False, True, True])
+
+
+@pytest.mark.parametrize("rows", [np.array([0, 2]), np.array([True, False, True])])
+def test_selected_samples_keep_all_that_is_said_of_them(rows):
+    q = np.tile(IDENTITY, (3, 1))
+    made = Doodle([0.0, 0.1, 0.2], np.eye(3), q, "left", np.array([True, True, False]))
+    part = made.selected(rows)
+    assert part.device == "left"
+    assert_array_equal(part.time_s, [0.0, 0.2])
+    assert_array_equal(part.position_m, np.eye(3)[[0, 2]])
+    assert_array_equal(part.drawing, [True, False])
 
 
 def test_length_and_duration_are_those_of_the_samples():

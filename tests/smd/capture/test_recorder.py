@@ -32,6 +32,15 @@ def test_what_is_written_reads_back(tmp_path):
     assert dict(recording.metadata) == {"left": "LHR-1", "right": "LHR-2"}
 
 
+def test_a_device_of_which_nothing_says_what_it_draws_reads_back_so(tmp_path):
+    with Recorder(tmp_path / "take.csv", {"LHR-1": "left", "LHR-2": "right"}) as recorder:
+        for i in range(30):
+            recorder.write(i / 90, {"LHR-1": (at(i), None), "LHR-2": (at(i), True)})
+    left, right = read_recording(tmp_path / "take.csv").doodles
+    assert left.drawing is None
+    assert right.drawing is not None and right.drawing.all()
+
+
 def test_a_file_cut_anywhere_reads_without_repair(tmp_path):
     whole, cut = tmp_path / "whole.csv", tmp_path / "cut.csv"
     write(whole, 30)

@@ -35,6 +35,19 @@ def test_a_replay_recorded_again_is_the_recording(run_smd, tmp_path):
     assert mine.drawing.tolist() == theirs.drawing.tolist()
 
 
+def test_a_recording_says_what_was_drawn_where_the_trigger_was_to_be_held(run_smd, tmp_path):
+    take = tmp_path / "take.csv"
+    write_recording(story(), take)
+    freely, held = tmp_path / "freely.csv", tmp_path / "held.csv"
+    options = ("--source", f"replay:{take}", "--device", "left", "--device", "headset")
+    assert run_smd("record", "-o", freely, *options)[0] == 0
+    assert [one.drawing for one in read_recording(freely).doodles] == [None, None]
+    assert run_smd("record", "-o", held, *options, "--hold-to-draw")[0] == 0
+    left, headset = read_recording(held).doodles
+    assert 0 < left.drawing.sum() < len(left)
+    assert headset.drawing.all()  # of which the recording says nothing: held all along
+
+
 def test_recordings_of_a_folder_follow_one_another(tmp_path):
     for name in ("a.csv", "b.csv"):
         write_recording(story(), tmp_path / name)

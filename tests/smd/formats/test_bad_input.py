@@ -124,6 +124,11 @@ def refused(path: Path, **options) -> str:
             "line 2: expected 0 or 1 in column drawing, found 'maybe'",
         ),
         (
+            "t,x,y,z,qx,qy,qz,qw,drawing\n0,1,2,3,0,0,0,1,1\n0.1,1,2,4,0,0,0,1,\n",
+            "line 3: expected 0 or 1 in column drawing, as in other rows of the doodle, found an "
+            "empty cell",
+        ),
+        (
             "# schema: smd.recording\n# version: 2\n" + HEADER + GOOD,
             "expected version 1 of smd.recording, found version 2",
         ),
@@ -243,6 +248,7 @@ def test_an_error_far_down_a_long_file_is_found(tmp_path):
 SEEDS = [
     "# a: b\n" + HEADER + GOOD,
     "t,device,x,y,z,qx,qy,qz,qw,drawing\n0,a,1,2,3,0,0,0,1,1\n0.1,a,1,2,3,0,0,0,1,0\n",
+    "t,x,y,z,qx,qy,qz,qw,drawing\n0,1,2,3,0,0,0,1,\n0.1,1,2,3,0,0,0,1,\n",
     "0 1 2 3 0 0 0 1\n0.1 1 2 3 0 0 0 1\n",
     json.dumps({"recording": {"a": {"poses": [POSE, POSE | {"timestamp": 20}]}}}),
 ]

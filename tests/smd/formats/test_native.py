@@ -94,6 +94,26 @@ def test_drawing_is_read_as_ones_and_zeros_or_words(tmp_path, marks):
     assert_array_equal(doodle.drawing, [True, False, True])
 
 
+@pytest.mark.parametrize(
+    "text", [HEADER + ROWS, HEADER.replace("qw\n", "qw,drawing\n") + ROWS.replace("\n", ",\n")]
+)
+def test_a_file_that_does_not_say_when_the_user_drew_says_nothing(tmp_path, text):
+    assert read_text(tmp_path, text).doodles[0].drawing is None
+
+
+def test_the_column_is_there_where_a_doodle_says_when_the_user_drew(tmp_path):
+    path, q = tmp_path / "take.csv", np.tile([0.0, 0.0, 0.0, 1.0], (12, 1))
+    t = 0.01 * np.arange(12)
+    silent = Doodle(t, np.outer(t, [1.0, 2.0, 3.0]), q, "a")
+    drawn = Doodle(t, np.outer(t, [1.0, 2.0, 3.0]), q, "b", np.ones(12, bool))
+    for doodles, has_column in (((silent,), False), ((silent, drawn), True), ((drawn,), True)):
+        write_recording(Recording(doodles), path)
+        assert (",drawing\n" in path.read_text("utf-8")) == has_column
+        for ours, theirs in zip(read_recording(path).doodles, doodles, strict=True):
+            assert (ours.drawing is None) == (theirs.drawing is None)
+            assert_array_equal(ours.drawing, theirs.drawing)
+
+
 names = st.text(st.characters(blacklist_categories=["Cs", "Cc"]), min_size=1, max_size=12).filter(
     lambda text: text == " ".join(text.split())
 )
@@ -114,7 +134,7 @@ def recordings(draw) -> Recording:
             start_s = time_s[-1] + draw(st.floats(0.3, 5.0))
             position = np.cumsum(rng.normal(scale=0.01, size=(n, 3)), axis=0)
             q /= np.linalg.norm(q, axis=1, keepdims=True)
-            drawing = rng.random(n) < 0.5 if draw(st.booleans()) else None
+            drawing = draw(st.sampled_from([None, rng.random(n) < 0.5, np.ones(n, bool)]))
             doodles.append(Doodle(time_s, position, q, device, drawing))
     keys = names.filter(lambda key: ":" not in key and key not in ("schema", "version"))
     values = st.text(st.characters(blacklist_categories=["Cs", "Cc"]), max_size=20)
@@ -137,6 +157,7 @@ def test_what_is_written_reads_back_the_same(tmp_path_factory, recording):
         assert_array_equal(ours.time_s, theirs.time_s)
         assert_array_equal(ours.position_m, theirs.position_m)
         assert_allclose(ours.orientation_xyzw, theirs.orientation_xyzw, atol=1e-15)
+        assert (ours.drawing is None) == (theirs.drawing is None)
         assert_array_equal(ours.drawing, theirs.drawing)
 
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -30,9 +31,8 @@ def offline(doodle):
 
 
 def samples(doodle):
-    return zip(
-        doodle.time_s, doodle.position_m, doodle.orientation_xyzw, doodle.drawing, strict=True
-    )
+    drawing = [None] * len(doodle) if doodle.drawing is None else doodle.drawing.tolist()
+    return zip(doodle.time_s, doodle.position_m, doodle.orientation_xyzw, drawing, strict=True)
 
 
 def streamed(doodle, **how):
@@ -58,6 +58,16 @@ def row(seed, actions=ACTIONS, person=None, pause_s=(0.4, 1.2)):
     for action in rng.permutation(list(actions)):
         take.play(str(action)).pause(float(rng.uniform(*pause_s)))
     return take.doodle()
+
+
+def test_where_nothing_says_what_is_drawn_all_movement_counts():
+    doodle = row(3, ACTIONS[:3])
+    free, drawn = (
+        told(span for span, _ in streamed(replace(doodle, drawing=mark)))
+        for mark in (None, np.ones(len(doodle), bool))
+    )
+    assert free == drawn != []
+    assert streamed(replace(doodle, drawing=np.zeros(len(doodle), bool))) == []
 
 
 @pytest.mark.parametrize("seed", range(6))
