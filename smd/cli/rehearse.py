@@ -246,7 +246,7 @@ class Rehearsal:
 
     def _with(self, action: str, takes: Sequence[tuple[str, Doodle]]) -> Action:
         """Return an action with takes as examples."""
-        from smd.recognition.rehearsal import add_examples
+        from smd.recognition import add_examples
 
         return add_examples(
             self.start.action(action),
