@@ -13,7 +13,7 @@ import numpy as np
 
 from smd.errors import DoodleError, LibraryError
 from smd.geometry.arrays import FloatArray
-from smd.recognition.exemplar import Exemplar
+from smd.recognition.exemplar import Exemplar, Ownership
 
 MOST_NUMBERS = 50_000_000
 """In one array: 400 MB, a hundred thousand examples. More is a broken header."""
@@ -25,13 +25,21 @@ def write_exemplar(path: Path, exemplar: Exemplar) -> None:
     np.savez_compressed(path, allow_pickle=False, **arrays)
 
 
-def read_exemplar(path: Path) -> Exemplar:
+def read_exemplar(path: Path, own: Ownership = False) -> Exemplar:
     """Return the exemplar that a file holds.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    own
+        Which examples are the performer's own; ``library.json`` says it.
 
     Raises
     ------
     LibraryError
-        If the file is missing, damaged or not one of ours; it names the file and the key.
+        If the file is missing, damaged or not one of ours, or has no example of some number; it
+        names the file and the key.
     """
     if not path.is_file():
         raise LibraryError(f"{path}: expected an exemplar, found no such file")
@@ -44,7 +52,7 @@ def read_exemplar(path: Path) -> Exemplar:
     except (OSError, zipfile.BadZipFile) as error:
         raise LibraryError(f"{path}: expected an npz file of arrays, found: {error}") from error
     try:
-        return Exemplar.from_arrays(arrays)
+        return Exemplar.from_arrays(arrays, own)
     except DoodleError as error:
         raise LibraryError(f"{path}: {error}") from error
 

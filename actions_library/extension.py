@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -108,8 +108,7 @@ def new_library(
         If the name is no word, the folder holds something, or it cannot be written.
     """
     require_name(action.name)
-    if folder.is_dir() and any(folder.iterdir()):
-        raise LibraryError(f"{folder}: expected a library or an empty folder, found other files")
+    require_place(folder)
     taken = tuple(known for known in base.actions if known.name in (*kept, IDLE))
     clips = {known.name: base.clip(known.name) for known in taken}
     return write_library(
@@ -188,6 +187,93 @@ def put_clip(library: Library, action: Action, clip: Clip, credit: Credit) -> Li
     for file in {*library.clip_files.values(), *library.exemplar_files.values()} - kept:
         (library.folder / file).unlink(missing_ok=True)
     return load_library(library.folder)
+
+
+def put_examples(library: Library, rehearsed: Sequence[Action]) -> Library:
+    """Put actions with other examples, or another pattern, in the place of their namesakes.
+
+    Their clips stay. All of them change or none, as in `put_clip`.
+
+    Parameters
+    ----------
+    library
+        As it was read from its folder.
+    rehearsed
+        Actions that it has, changed; an exemplar is neither gained nor lost.
+
+    Returns
+    -------
+    Library
+        As it is then.
+
+    Raises
+    ------
+    LibraryError
+        If the library has no action of a name.
+    ExportError
+        If the folder cannot be written.
+    """
+    exemplar_files = dict(library.exemplar_files)
+    actions = library.actions
+    with ExitStack() as undone:
+        for action in rehearsed:
+            library.action(action.name)
+            actions = _with(actions, action)
+            if action.exemplar is None:
+                continue
+            file = f"{EXEMPLARS_FOLDER}/{_free_stem(library.folder, action.name)}.npz"
+            exemplar_files[action.name] = file
+            undone.callback((library.folder / file).unlink, missing_ok=True)
+            with _new_file(library.folder / file) as path:
+                write_exemplar(path, action.exemplar)
+        changed = replace(library, actions=actions, exemplar_files=exemplar_files)
+        with replacing(library.folder / MANIFEST) as path:
+            path.write_text(manifest_text(changed), encoding="utf-8", newline="\n")
+        undone.pop_all()
+    for file in {*library.exemplar_files.values()} - {*exemplar_files.values()}:
+        (library.folder / file).unlink(missing_ok=True)
+    return load_library(library.folder)
+
+
+def rehearsed_library(folder: Path, base: Library, rehearsed: Sequence[Action]) -> Library:
+    """Write a library with all of another one, and some of its actions with other examples.
+
+    Parameters
+    ----------
+    folder
+        Where; missing or empty. It gives the library its name.
+    base
+        The other library.
+    rehearsed
+        Actions that it has, changed.
+
+    Raises
+    ------
+    LibraryError
+        If the folder holds something, or it cannot be written, or the other library has no action
+        of a name.
+    """
+    require_place(folder)
+    actions = base.actions
+    for action in rehearsed:
+        base.action(action.name)
+        actions = _with(actions, action)
+    return write_library(
+        folder,
+        name=folder.resolve().name,
+        character=base.character,
+        clips=base.clips,
+        actions=actions,
+        credits=base.credits,
+    )
+
+
+def require_place(folder: Path) -> None:
+    """Raise LibraryError unless a new library may be written to a folder."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise LibraryError(f"{folder}: expected a library or an empty folder, found other files")
+    if not folder.resolve().parent.is_dir():
+        raise LibraryError(f"{folder}: expected an existing folder {folder.parent}, found none")
 
 
 def _resting(action: Action, among: tuple[Action, ...]) -> Action:

@@ -14,10 +14,10 @@ from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
 
 if TYPE_CHECKING:
-    from smd.recognition.exemplar import Exemplar
+    from smd.recognition.exemplar import Exemplar, Ownership
 
 MANIFEST = "library.json"
-SCHEMA, VERSION = "smd.library", 3
+SCHEMA, VERSION = "smd.library", 4
 
 
 def read_manifest(folder: Path) -> Library:
@@ -88,6 +88,7 @@ def manifest_text(library: Library) -> str:
             "cyclic": action.cyclic,
             "description": action.description,
             "exemplar": library.exemplar_files.get(action.name),
+            "own": action.exemplar.ownership if action.exemplar else False,
             "learned_from": list(action.learned_from),
             "rest": action.rest,
             "author": library.credit(action.name).author,
@@ -110,8 +111,16 @@ def _upgraded_2(row: dict[str, Any]) -> dict[str, Any]:
     return {**row, "rest": "", "author": "", "licence": ""}
 
 
+def _upgraded_3(row: dict[str, Any]) -> dict[str, Any]:
+    """Return an action of version 3, which did not say whose examples are, as of version 4.
+
+    What was learned from recordings was so from the user's.
+    """
+    return {**row, "own": bool(row.get("learned_from"))}
+
+
 _UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = MappingProxyType(
-    {1: _upgraded_1, 2: _upgraded_2}
+    {1: _upgraded_1, 2: _upgraded_2, 3: _upgraded_3}
 )
 """From each past version to the next one."""
 
@@ -146,7 +155,19 @@ def _exemplar(path: Path, row: dict[str, Any]) -> Exemplar | None:
         return None
     from actions_library.exemplars import read_exemplar
 
-    return read_exemplar(path.parent / _file(path, row, "exemplar"))
+    return read_exemplar(path.parent / _file(path, row, "exemplar"), _own(path, row))
+
+
+def _own(path: Path, row: dict[str, Any]) -> Ownership:
+    """Return which of an action's examples are the performer's own."""
+    own = row.get("own")
+    if isinstance(own, bool):
+        return own
+    if isinstance(own, list) and all(type(number) is int for number in own):
+        return tuple(own)
+    raise LibraryError(
+        f"{path}: {_place(row, 'own')}: expected true, false or a list of numbers, got {own!r}"
+    )
 
 
 def _value(path: Path, row: dict[str, Any], key: str, kind: type) -> Any:

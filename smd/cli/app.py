@@ -19,6 +19,7 @@ from smd.cli import (
     parse,
     play,
     record,
+    rehearse,
     render,
     teach,
 )
@@ -51,6 +52,7 @@ app.command()(devices.devices)
 app.command()(record.record)
 app.command()(play.play)
 app.command()(teach.teach)
+app.command()(rehearse.rehearse)
 app.command()(learn.learn)
 app.command()(calibrate.calibrate)
 app.add_typer(library.app, name="library", help="What can be performed.")

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterator, Mapping
+    from pathlib import Path
 
+    from smd.capture.source import Source as OpenSource
     from smd.capture.take import Progress
 
 Source = Annotated[
@@ -32,6 +34,31 @@ Rate = Annotated[float, typer.Option(help="Frames a second, 10 to 1000.")]
 
 SHOW_S = 0.25
 """From one state of the live line to the next."""
+
+
+def held_takes(
+    opened: OpenSource, names: Mapping[str, str], place: Callable[[], Path]
+) -> Iterator[Path | None]:
+    """Record what is done while a trigger is held; yield each take's file, and None for each grip.
+
+    After each take a tick in the hand says that it was recorded.
+    """
+    from smd.capture.hand import grips, stretches
+    from smd.capture.recorder import Recorder
+    from smd.capture.take import record
+
+    for held, frames in stretches(opened.poses()):
+        if held:
+            path = place()
+            with Recorder(path, names) as recorder:
+                for _ in record(frames, recorder, names, hold_to_draw=True):
+                    pass
+            for serial in names:
+                opened.tick(serial)
+            yield path
+        else:
+            for _ in grips(frames):
+                yield None
 
 
 class LiveLine:

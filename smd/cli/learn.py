@@ -75,7 +75,7 @@ def learn(
     lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     files = list(reading.recording_files(recordings))
-    doodles = [_example(file, options, device) for file in files]
+    doodles = [one_example(file, options, device) for file in files]
     typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height)))
 
 
@@ -174,7 +174,7 @@ class Lesson:
         yield f"{verb}: {self.folder}: {names}"
 
 
-def _example(file: Path, options: reading.ReadingOptions, device: str | None) -> Doodle:
+def one_example(file: Path, options: reading.ReadingOptions, device: str | None) -> Doodle:
     """Return the one doodle of a recording; an example holds the gesture once."""
     from smd.errors import RecordingError
 

@@ -80,7 +80,9 @@ def show(
         typer.echo(f"    by {credit.author or 'nobody named'}, {credit.licence or 'no licence'}")
     if known.exemplar is not None:
         examples = reading.count(len(known.exemplar), "example")
-        typer.echo(f"    verified against {examples}: {shelf.exemplar_files[action]}")
+        own = int(known.exemplar.own.sum())
+        of_them = f", {own} of them your own" if 0 < own < len(known.exemplar) else ""
+        typer.echo(f"    verified against {examples}{of_them}: {shelf.exemplar_files[action]}")
     if known.learned_from:
         typer.echo(f"    learned from: {', '.join(known.learned_from)}")
     elif known.pattern is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +10,6 @@ import typer
 from smd.cli import capturing, reading
 
 if TYPE_CHECKING:
-    from smd.capture.source import Frame
     from smd.doodle import Doodle
 
 
@@ -46,12 +44,10 @@ def teach(
 
     Hold the trigger during each. The grip discards the last one; their recordings are kept.
     """
-    from smd.capture.hand import grips, stretches
     from smd.capture.opening import open_source
-    from smd.capture.recorder import Recorder
     from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
-    from smd.capture.take import record, require_rate
+    from smd.capture.take import require_rate
     from smd.cli.learn import Lesson
     from smd.errors import CaptureError, SmdError
     from smd.formats import Mount
@@ -65,34 +61,23 @@ def teach(
         require_trigger(there)
         names = {each.serial: each.name for each in chosen_devices(there, device or ())}
         shelf = Shelf(output, action)
-
-        def perform(frames: Iterator[Frame]) -> None:
-            path = shelf.next().with_suffix(".csv")
-            with Recorder(path, names) as recorder:
-                for _ in record(frames, recorder, names, hold_to_draw=True):
-                    pass
+        typer.echo(_asked(action, 1, performances))
+        for path in capturing.held_takes(opened, names, lambda: shelf.next().with_suffix(".csv")):
+            if path is None:
+                if taken:
+                    last, _doodle = taken.pop()
+                    shelf.discard(last.with_suffix(""))
+                    typer.echo(f"  {last.name}: discarded")
+                continue
             try:
-                doodle = _drawn(path, options)
+                doodle = drawn_doodle(path, options)
                 typer.echo(_told(path, doodle, figure_height))
                 taken.append((path, doodle))
             except SmdError as error:
                 typer.echo(f"  not counted: {error}")
-            for serial in names:
-                opened.tick(serial)
-
-        typer.echo(_asked(action, 1, performances))
-        for held, frames in stretches(opened.poses()):
-            if held:
-                perform(frames)
-                if len(taken) == performances:
-                    break
-                typer.echo(_asked(action, len(taken) + 1, performances))
-            else:
-                for _ in grips(frames):
-                    if taken:
-                        path, _doodle = taken.pop()
-                        shelf.discard(path.with_suffix(""))
-                        typer.echo(f"  {path.name}: discarded")
+            if len(taken) == performances:
+                break
+            typer.echo(_asked(action, len(taken) + 1, performances))
     if len(taken) < performances:
         raise CaptureError(
             f"expected {performances} performances of {action!r}, got {len(taken)}: "
@@ -107,7 +92,7 @@ def _asked(action: str, number: int, of: int) -> str:
     return f"{number} of {of}: hold the trigger, draw {action}, let go"
 
 
-def _drawn(path: Path, options: reading.ReadingOptions) -> Doodle:
+def drawn_doodle(path: Path, options: reading.ReadingOptions) -> Doodle:
     """Return the one doodle of a performance: that of the device whose trigger was held."""
     from smd.errors import RecordingError
 

@@ -22,8 +22,8 @@ class Action:
     travels : moves along the doodle's path, or acts in place.
     cyclic : its clip repeats, once per distance travelled where it travels.
     description : what the gesture of the prop looks like, in one sentence.
-    learned_from : the recordings or other examples it was learned from, by name; none where its
-        pattern was written by hand.
+    learned_from : the recordings or other examples that somebody gave, by name; none of a shipped
+        action.
     rest : name of the action whose clip is idled in after it: who has sat down sits. The
         library's idling where empty.
     exemplar : what verification remembers of examples; None where there were none. Arrays have no

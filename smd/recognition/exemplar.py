@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import TypeAlias
 
 import numpy as np
 
 from smd.errors import DoodleError
-from smd.geometry.arrays import FloatArray, frozen_array
+from smd.geometry.arrays import BoolArray, FloatArray, frozen_array
 from smd.recognition.alignment import distance_table
 from smd.recognition.traits import COURSES, FLOORS, MEASURES, SAMPLES, Traits, fitted
 
@@ -34,10 +35,24 @@ MOST_OWN_DISTANCES = 6
 """How many examples an action's own distances count for at most: where there are many, the
 nearest one is near because they are many."""
 
+STRANGERS = 1.0
+"""How many examples of the performer's own all examples of others together count for, where there
+are own ones, in what is usual: how large, fast and far somebody draws an action, and how much that
+differs, is told by one take of theirs as well as by all other people."""
+
+FARTHER = 1.1
+"""Factor on the distance to an example of somebody else, where there are own ones."""
+
+Ownership: TypeAlias = bool | Sequence[int]
+"""Which of an action's examples are the performer's own: all, none, or those of some numbers."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exemplar:
     """What verification remembers of an action's examples.
+
+    Where some examples are the performer's own and some are others', an own one counts for more
+    (`STRANGERS`, `FARTHER`). Where all are of one kind, all count the same.
 
     Attributes
     ----------
@@ -45,6 +60,11 @@ class Exemplar:
     measures : (n, 4), logarithms of how long, how large, how far and how much turned each is.
     apart : (n, 4), from each example's courses to the nearest other example's; empty ``(0, 4)``
         where n is 1.
+    own : (n,), which examples are of the person whose gestures are to be recognised.
+    scale : (4,), how far a gesture's courses usually are from the nearest example's.
+    centre, spread : (4,), what is usual of the measures, and by how much they differ.
+    central : (SAMPLES, 12), the course in the heading frame that others are turned to.
+    factor : (n,), what a distance to each example is multiplied by, at least 1.
     background : what movement that means nothing costs, seen as the action, as a logarithm
         (`smd.recognition.background`); None where it was not weighed yet.
     """
@@ -52,11 +72,13 @@ class Exemplar:
     courses: Mapping[str, FloatArray]
     measures: FloatArray
     apart: FloatArray
+    own: BoolArray
     background: float | None = None
     scale: FloatArray = field(init=False)
     centre: FloatArray = field(init=False)
     spread: FloatArray = field(init=False)
     central: FloatArray = field(init=False)
+    factor: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
         n = len(self.measures)
@@ -72,21 +94,28 @@ class Exemplar:
         apart = frozen_array("apart", self.apart, (None, len(COURSES)), DoodleError)
         if n == 0 or len(apart) not in ((0,) if n == 1 else (n,)):
             raise DoodleError(f"apart: expected {n if n > 1 else 0} rows, got {len(apart)}")
-        own = min(len(apart), MOST_OWN_DISTANCES)
+        own = frozen_array("own", self.own, (n,), DoodleError, np.bool_)
+        mixed = own.any() and not own.all()
+        weight = np.where(own, 1.0, STRANGERS / max(n - own.sum(), 1)) if mixed else np.ones(n)
+        count = weight.sum()
         logs = PRIOR_DISTANCES * np.log(USUAL_DISTANCE)
-        if own:
-            logs = logs + own * np.log(apart + 1e-3).mean(axis=0)
-        centre = measures.mean(axis=0)
-        squares = PRIOR_SPREADS * np.square(USUAL_SPREAD) + np.square(measures - centre).sum(axis=0)
-        # The next example differs from the mean of n by its own spread and by the mean's.
-        spread = np.sqrt(squares / (PRIOR_SPREADS + n - 1.0) * (1.0 + 1.0 / n))
-        scale = np.exp(logs / (PRIOR_DISTANCES + own))
+        counted = min(count, MOST_OWN_DISTANCES) if len(apart) else 0.0
+        if counted:
+            logs = logs + counted * (weight @ np.log(apart + 1e-3)) / count
+        scale = np.exp(logs / (PRIOR_DISTANCES + counted))
+        centre = weight @ measures / count
+        squares = PRIOR_SPREADS * np.square(USUAL_SPREAD) + weight @ np.square(measures - centre)
+        # The next example differs from the mean of so many by its own spread and by the mean's.
+        spread = np.sqrt(squares / (PRIOR_SPREADS + count - 1.0) * (1.0 + 1.0 / count))
+        factor = np.where(own, 1.0, FARTHER) if mixed else np.ones(n)
         for name, value in (("scale", scale), ("centre", centre), ("spread", spread)):
             object.__setattr__(self, name, frozen_array(name, value, (4,), DoodleError))
         object.__setattr__(self, "central", _central(courses["shape_heading"]))
         object.__setattr__(self, "courses", MappingProxyType(courses))
         object.__setattr__(self, "measures", measures)
         object.__setattr__(self, "apart", apart)
+        object.__setattr__(self, "own", own)
+        object.__setattr__(self, "factor", frozen_array("factor", factor, (n,), DoodleError))
 
     def __len__(self) -> int:
         return len(self.measures)
@@ -97,19 +126,26 @@ class Exemplar:
         return float(np.exp(self.centre[MEASURES.index("duration")]) - FLOORS[0])
 
     def to_arrays(self) -> dict[str, FloatArray]:
-        """Return plain arrays by name, from which `from_arrays` makes the same again."""
+        """Return plain arrays by name; with `ownership`, `from_arrays` makes the same again."""
         arrays = {**self.courses, "measures": self.measures, "apart": self.apart}
         known = {} if self.background is None else {"background": np.array(self.background)}
         return {**arrays, **known}
 
     @classmethod
-    def from_arrays(cls, arrays: Mapping[str, FloatArray]) -> Exemplar:
+    def from_arrays(cls, arrays: Mapping[str, FloatArray], own: Ownership = False) -> Exemplar:
         """Return the exemplar that `to_arrays` took apart.
+
+        Parameters
+        ----------
+        arrays
+            By name.
+        own
+            Which examples are the performer's own: all, none, or those of some numbers.
 
         Raises
         ------
         DoodleError
-            If an array is missing or has another shape.
+            If an array is missing or has another shape, or there is no example of some number.
         """
         missing = [name for name in (*COURSES, "measures", "apart") if name not in arrays]
         if missing:
@@ -118,12 +154,40 @@ class Exemplar:
             courses={name: arrays[name] for name in COURSES},
             measures=arrays["measures"],
             apart=arrays["apart"],
+            own=_owned(own, len(arrays["measures"])),
             background=float(arrays["background"]) if "background" in arrays else None,
         )
 
+    @property
+    def ownership(self) -> Ownership:
+        """Which examples are the performer's own, in few words; `from_arrays` understands them."""
+        if self.own.all() or not self.own.any():
+            return bool(self.own[0])
+        return tuple(np.flatnonzero(self.own).tolist())
 
-def exemplar_of(examples: Sequence[Traits]) -> Exemplar:
-    """Return what verification remembers of an action's examples, at least one."""
+    def examples(self) -> list[Traits]:
+        """Return the examples, one by one."""
+        return [
+            Traits(tuple(self.courses[name][i] for name in COURSES), self.measures[i])
+            for i in range(len(self))
+        ]
+
+
+def exemplar_of(examples: Sequence[Traits], *, own: Ownership = False) -> Exemplar:
+    """Return what verification remembers of an action's examples, at least one.
+
+    Parameters
+    ----------
+    examples
+        What each is like.
+    own
+        Which are the performer's own: all, none, or those of some numbers.
+
+    Raises
+    ------
+    DoodleError
+        If there is no example of some number.
+    """
     courses = {
         name: np.stack([example.courses[i] for example in examples])
         for i, name in enumerate(COURSES)
@@ -133,12 +197,12 @@ def exemplar_of(examples: Sequence[Traits]) -> Exemplar:
     for i in range(len(apart)):
         others = [j for j in range(n) if j != i]
         for k, (name, course) in enumerate(courses.items()):
-            own, rest = course[i : i + 1], course[others]
+            one, rest = course[i : i + 1], course[others]
             if name == "shape_heading":
-                own = faced(own, _central(rest))
-            apart[i, k] = nearest_distances(own, rest)[0]
+                one = faced(one, _central(rest))
+            apart[i, k] = nearest_distances(one, rest)[0]
     measures = np.stack([example.measures for example in examples])
-    return Exemplar(courses, measures, apart)
+    return Exemplar(courses, measures, apart, _owned(own, n))
 
 
 def faced(shapes: FloatArray, central: FloatArray) -> FloatArray:
@@ -161,3 +225,12 @@ def _central(shapes: FloatArray) -> FloatArray:
     """Return the one of several shapes ``(n, SAMPLES, d)`` that is nearest to their mean."""
     far = np.square(shapes - shapes.mean(axis=0)).sum(axis=(1, 2))
     return np.asarray(shapes[int(far.argmin())])
+
+
+def _owned(own: Ownership, n: int) -> BoolArray:
+    """Return ``(n,)``, whether each of n examples is the performer's own."""
+    if isinstance(own, bool):
+        return np.full(n, own)
+    if any(not 0 <= number < n for number in own):
+        raise DoodleError(f"own: expected numbers of examples, 0 to {n - 1}, got {list(own)}")
+    return np.isin(np.arange(n), own)

@@ -88,6 +88,7 @@ def learn_action(
     *,
     names: Sequence[str] | None = None,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+    own: bool = True,
 ) -> Action:
     """Learn an action from examples of its gesture; three are usually enough.
 
@@ -101,6 +102,9 @@ def learn_action(
         What to call the examples; ``example 1`` and so on if absent.
     figure_height_m
         Height of the figurine that the prop stands for.
+    own
+        Whether the examples are of the person whose gestures are to be recognised; it matters
+        once there are also some of others.
 
     Raises
     ------
@@ -113,9 +117,8 @@ def learn_action(
         traits_of(smooth(doodle).between(*span), figure_height_m=figure_height_m)
         for doodle, span in zip(doodles, learned.spans_s, strict=True)
     ]
-    return Action(
-        name, learned.pattern, learned_from=learned.names, exemplar=weighed(exemplar_of(examples))
-    )
+    exemplar = weighed(exemplar_of(examples, own=own))
+    return Action(name, learned.pattern, learned_from=learned.names, exemplar=exemplar)
 
 
 class Recognizer:

@@ -76,9 +76,12 @@ class Verification:
             array.flags.writeable = False
             object.__setattr__(self, name, array)
         courses = [[one.courses[name] for one in each if one] for name in COURSES]
+        factors = tuple(one.factor for one in each if one)
         examples = {
             every: tuple(
-                Examples(tuple(c[:, ::every] for c in each), BAND) for each in courses if each
+                Examples(tuple(c[:, ::every] for c in each), BAND, factors)
+                for each in courses
+                if each
             )
             for every in (1, GLANCE)
         }

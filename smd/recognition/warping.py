@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -40,13 +40,17 @@ class Examples:
     ----------
     courses : of each action ``(m, n, d)``, n and d the same for all, n at least 4.
     band : how far warping may shift, as a share of n, at least 1 / n.
+    factors : of each action ``(m,)``, what the distance to each example is multiplied by, at
+        least 1; where empty, by nothing.
     """
 
     courses: tuple[FloatArray, ...]
     band: float
+    factors: tuple[FloatArray, ...] = ()
     _first: IntArray = field(init=False)
     _all: FloatArray = field(init=False)
     _size: FloatArray = field(init=False)
+    _factor: FloatArray = field(init=False)
     _shift: int = field(init=False)
     _windows: tuple[Single, ...] = field(init=False)
     _low: FloatArray = field(init=False)
@@ -62,6 +66,7 @@ class Examples:
             "_first": np.cumsum([0, *map(len, self.courses)]),
             "_all": every,
             "_size": np.array([_size(each).max() for each in self.courses]),
+            "_factor": _in_rows(self.factors or tuple(np.ones(len(each)) for each in self.courses)),
             "_shift": shift,
             "_windows": tuple(_windows(each, shift) for each in self.courses),
             "_low": _least_in_reach(low, shift),
@@ -95,6 +100,8 @@ class Examples:
     ) -> FloatArray:
         """Return ``(p,)``, the `alignment.distance` of p courses to the nearest example.
 
+        Each distance is multiplied by the example's factor.
+
         First all examples are warped in single precision. What may be nearest, as far as its
         rounding tells, is then warped in double precision.
 
@@ -111,18 +118,19 @@ class Examples:
         nearest = np.full(len(courses), np.inf)
         for part in self._slabs(action):
             ours, own = courses[part], action[part]
-            total = self._totals(ours, own)
+            factor = self._factor[own]
+            total = self._totals(ours, own) * np.square(factor)
             # A sample's cost is a scalar product of d + 2 numbers, whose terms add up to no more
             # than twice the squares of both sizes; a way adds up fewer than 2 n costs.
             n, d = ours.shape[1:]
             size = (_size(ours) + self._size[own])[:, None]
             share = 2 * n * _ROUNDING
-            error = share * 2 * (d + 3) * size
+            error = share * 2 * (d + 3) * size * np.square(factor)
             nearest_at_most = ((1.0 + share) * total + error).min(axis=1)
             wanted = np.minimum(nearest_at_most, n * np.square(most[part]))[:, None]
             pair, example = np.nonzero((1.0 - share) * total - error <= wanted)
             theirs = self._all[self._first[own[pair]] + example]
-            exact = pair_distances(ours[pair], theirs, band=self.band)
+            exact = pair_distances(ours[pair], theirs, band=self.band) * factor[pair, example]
             np.minimum.at(nearest, part.start + pair, exact)
         nearest[nearest > most] = np.inf
         return nearest
@@ -186,6 +194,14 @@ class Examples:
 def _size(courses: FloatArray) -> FloatArray:
     """Return ``(m,)``, the largest square of a sample's distance from the origin."""
     return np.asarray(np.square(courses).sum(axis=-1).max(axis=-1))
+
+
+def _in_rows(factors: Sequence[FloatArray]) -> FloatArray:
+    """Return ``(a, m)``, the factors of a actions with at most m examples, 1 beyond the last."""
+    rows = np.ones((len(factors), max(map(len, factors))))
+    for row, own in zip(rows, factors, strict=True):
+        row[: len(own)] = own
+    return rows
 
 
 def _windows(examples: FloatArray, shift: int) -> Single:

@@ -194,6 +194,33 @@ def test_a_library_of_version_2_still_loads_with_nobody_s_clips_and_one_idling()
     assert (walk.rest, library.credit("walk")) == ("", Credit())
 
 
+def test_what_a_library_of_version_3_learned_is_its_user_s_own_and_the_rest_is_not():
+    library = load_library(GOLDEN / "version_3")
+    assert library.action("walk").exemplar.own.all()
+    assert not library.action("bow").exemplar.own.any()
+    assert library.action("bow").rest == "walk"
+    assert library.credit("bow") == Credit("Ann", "CC0")
+
+
+@pytest.mark.parametrize("own", [False, True, (2,), (0, 2)])
+def test_whose_examples_are_survives_the_round_trip(tmp_path, own):
+    exemplar = replace(an_exemplar(), own=exemplar_of(an_exemplar().examples(), own=own).own)
+    library = with_exemplar(tmp_path / "a", exemplar)
+    assert library.action("hurl").exemplar.ownership == own
+    row = json.loads((library.folder / "library.json").read_text(encoding="utf-8"))["actions"][0]
+    assert row["own"] == (own if isinstance(own, bool) else list(own))
+
+
+@pytest.mark.parametrize("own", [None, 1, "all", [0.5], [True], [3], [-1]])
+def test_whose_examples_are_is_told_in_numbers_that_there_are(folder, own):
+    file = folder / "library.json"
+    document = json.loads(file.read_text(encoding="utf-8"))
+    document["actions"][0]["own"] = own
+    file.write_text(json.dumps(document))
+    with pytest.raises(LibraryError, match=r"hurl.*: (own: )+expected"):
+        load_library(folder)
+
+
 def test_a_library_of_version_1_is_written_again_as_the_present_one(tmp_path):
     old = load_library(GOLDEN / "version_1")
     new = write_library(
@@ -205,7 +232,7 @@ def test_a_library_of_version_1_is_written_again_as_the_present_one(tmp_path):
     )
     assert new.actions == old.actions
     document = json.loads((new.folder / "library.json").read_text(encoding="utf-8"))
-    assert document["version"] == 3
+    assert document["version"] == 4
     assert replace(new.action("walk")) == old.action("walk")
 
 

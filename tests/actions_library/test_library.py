@@ -178,7 +178,7 @@ def test_an_unknown_action_is_answered_with_those_there_are(library):
     ("change", "named"),
     [
         ({"schema": "other"}, "schema"),
-        ({"version": 4}, "version"),
+        ({"version": 5}, "version"),
         ({"version": 0}, "version"),
         ({"version": True}, "version"),
         ({"version": "2"}, "version"),

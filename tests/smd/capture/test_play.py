@@ -130,3 +130,33 @@ def test_a_bad_mount_is_told_before_anyone_plays(run_smd, tmp_path, command):
     code, out, err = run_smd(*command, "-o", tmp_path / "takes", "--mount", "jaw=180")
     assert (code, out) == (3, "")
     assert "'jaw=180'" in err
+
+
+def test_the_grip_takes_the_last_rehearsed_take_back(play_scene, run_smd, tmp_path):
+    doodle = played("punch", pause_s=0.3)
+    time_s = np.arange(3 * len(doodle)) / 90
+    length_s = len(doodle) / 90
+    pressed = [
+        (0.1, length_s - 0.1, TRIGGER),
+        (length_s, length_s + 0.1, GRIP),
+        (length_s + 0.2, length_s + 0.3, GRIP),  # nothing is left to discard
+        (2 * length_s, 3 * length_s - 0.1, TRIGGER),
+    ]
+    prop = Played(
+        CONTROLLER,
+        LEFT,
+        "LHR-1",
+        time_s,
+        np.tile(doodle.position_m, (3, 1)),
+        np.tile(doodle.orientation_xyzw, (3, 1)),
+        buttons=lambda s: sum(button for start, end, button in pressed if start <= s < end),
+    )
+    play_scene(Scene([prop], quit_s=3 * length_s))
+    my, kept = tmp_path / "my", tmp_path / "kept"
+    code, out, err = run_smd("rehearse", "punch", "bow", "--library", my, "-o", kept)
+    assert (code, len(err.splitlines())) == (3, 1)  # the runtime has quit
+    assert out.count("punch-001.csv: discarded") == 1
+    assert out.count("1 of 2: hold the trigger, draw punch") == 2
+    assert "2 of 2: hold the trigger, draw bow" in out
+    assert {path.name for path in kept.iterdir()} == {"punch-002.csv"}
+    assert not my.exists()

@@ -59,7 +59,8 @@ def test_it_is_kept_with_the_examples():
 
 def test_an_action_longer_than_all_background_is_held_against_the_longest():
     one = exemplar("walk", 5)
-    longer = Exemplar(one.courses, one.measures + np.array([4.0, 0.0, 0.0, 0.0]), one.apart)
+    measures = one.measures + np.array([4.0, 0.0, 0.0, 0.0])
+    longer = Exemplar(one.courses, measures, one.apart, one.own)
     assert np.isfinite(background_of(longer))
 
 

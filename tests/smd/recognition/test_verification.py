@@ -33,7 +33,8 @@ def problem():
     exemplars = []
     for i, count in enumerate((3, 1, 2)):
         examples = traits_at_random(rng, count, one(typical, i), noise=0.2)
-        exemplars.append(exemplar_of([one(examples, j) for j in range(count)]))
+        own = [0] if count == 3 else False  # one of three is the performer's own
+        exemplars.append(exemplar_of([one(examples, j) for j in range(count)], own=own))
     gestures = [traits_at_random(rng, 2, one(typical, i), noise=0.3) for i in range(3)]
     stacked = Traits(
         tuple(np.concatenate([g.courses[i] for g in gestures]) for i in range(len(WIDTHS))),
@@ -54,8 +55,8 @@ def naive_terms(verification, gestures, action, gesture, wrong, every):
             if name == "shape_heading":
                 course = faced(course[None], exemplar.central)[0]
             near = min(
-                table_distance(course[::every], example[::every], BAND)
-                for example in exemplar.courses[name]
+                factor * table_distance(course[::every], example[::every], BAND)
+                for example, factor in zip(exemplar.courses[name], exemplar.factor, strict=True)
             )
             row.append(WEIGHTS[1 + i] * near / exemplar.scale[i])
         z = (gestures.measures[g] - exemplar.centre) / exemplar.spread

@@ -12,10 +12,14 @@ def courses_at_random(rng, count, samples, numbers):
     return np.cumsum(rng.normal(scale=0.3, size=(count, samples, numbers)), axis=1)
 
 
-def nearest_by_tables(examples, courses, action, band):
+def nearest_by_tables(examples, courses, action, band, factors=None):
+    factors = factors or [np.ones(len(each)) for each in examples]
     return np.array(
         [
-            min(table_distance(course, example, band) for example in examples[index])
+            min(
+                factor * table_distance(course, example, band)
+                for example, factor in zip(examples[index], factors[index], strict=True)
+            )
             for course, index in zip(courses, action, strict=True)
         ]
     )
@@ -34,6 +38,19 @@ def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, lanes, cell
     expected = nearest_by_tables(examples, courses, action, band)
     found = Examples(examples, band).nearest(courses, action, np.full(len(courses), np.inf))
     np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_an_example_is_as_far_as_its_factor_says():
+    rng = np.random.default_rng(5)
+    examples = tuple(courses_at_random(rng, count, 8, 3) for count in (3, 1, 4))
+    courses, action = courses_at_random(rng, 30, 8, 3), rng.integers(0, 3, 30)
+    factors = tuple(rng.uniform(1.0, 3.0, len(each)) for each in examples)
+    expected = nearest_by_tables(examples, courses, action, 0.25, factors)
+    far = Examples(examples, 0.25, factors)
+    found = far.nearest(courses, action, np.full(30, np.inf))
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    assert np.array_equal(far.nearest(courses, action, found), found)
+    assert (found > Examples(examples, 0.25).nearest(courses, action, np.full(30, np.inf))).any()
 
 
 def test_what_is_farther_than_wanted_is_infinite_and_the_rest_as_before():
