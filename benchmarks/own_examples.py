@@ -10,7 +10,8 @@ at least half the way of three.
 F1 is that of single takes, of which a library knows all gestures but three: a take is right where
 it passes and is named as what it is, and wrong where it passes as anything else. The last row is
 of performers who rehearsed half of the gestures, tested with all. ``--sessions`` prints instead
-F1 in composed sessions (`benchmarks.composed`), which nothing says what is meant in.
+F1 in composed sessions (`benchmarks.composed`), which nothing says what is meant in, and
+``--shipped`` what own taps add to the shipped `push`, and own shakes to `wave`.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from itertools import product
 
 import numpy as np
 
+from actions_library.folder import load_library
 from benchmarks.composed import FRAME, Teaching, idle_files, read_idle, session_of
 from benchmarks.gestures import DATA, REPORTED, Gestures, read_gestures
 from benchmarks.tally import Tally, tally
@@ -36,6 +38,9 @@ from smd.recognition.rehearsal import Likeness, likeness
 CHOSEN_ON = tuple(range(1, 8))
 OTHERS, MOST_OWN, UNKNOWN = 5, 3, 3
 SPLITS, SEED = 3, 31
+NEIGHBOURS = {"push": 2, "wave": 14}
+"""Shipped actions, and the gestures that are most like them: tap and shake."""
+
 ROWS = ("accuracy", "F1, three gestures unknown", "accuracy, half rehearsed")
 
 
@@ -161,6 +166,28 @@ def f1_of_sessions(people: Sequence[int], idle: Sequence[Doodle]) -> tuple[Float
     return 100.0 * np.array([one.f1 for one in counts]), counts[-1]
 
 
+def print_shipped(data: Gestures) -> None:
+    """Print how takes of a neighbour of a shipped action fare with some of them added to it."""
+    shipped = load_library()
+    for name, label in NEIGHBOURS.items():
+        first, passes = np.zeros((2, MOST_OWN + 1))
+        tested = 0
+        for person in np.unique(data.person):
+            takes = np.flatnonzero((data.person == person) & (data.label == label))
+            takes = np.random.default_rng([SEED, person]).permutation(takes)
+            own, rest = takes[:MOST_OWN], takes[MOST_OWN:]
+            tested += len(rest)
+            for count in range(MOST_OWN + 1 if len(rest) else 0):
+                taught = add_examples(shipped.action(name), [data.doodles[i] for i in own[:count]])
+                known = [taught if one.name == name else one for one in shipped.actions]
+                recognizer = Recognizer(known)
+                looks = [likeness(recognizer, name, data.doodles[i]) for i in rest]
+                first[count] += sum(one.place == 1 for one in looks)
+                passes[count] += sum(one.place == 1 and one.share() <= 1.0 for one in looks)
+        print_row(f"{tested} as {name}: first", 100.0 * first / tested)
+        print_row(f"{tested} as {name}: first, and passes", 100.0 * passes / tested)
+
+
 def _learned(name: str, doodles: Sequence[Doodle]) -> Action:
     """Return an action that is learned from other people's takes."""
     try:
@@ -174,9 +201,9 @@ def _learned(name: str, doodles: Sequence[Doodle]) -> Action:
 
 def print_row(name: str, row: FloatArray) -> None:
     """Print figures with 0 to ``MOST_OWN`` own examples, and what one of them does."""
-    way = 100.0 * (row[1] - row[0]) / (row[-1] - row[0])
-    figured = "".join(f"{value:8.1f}" for value in row)
-    print(f"  {name:36}{figured}   one goes {way:.0f} % of the way", flush=True)
+    gain = row[-1] - row[0]
+    way = f"   one goes {100.0 * (row[1] - row[0]) / gain:.0f} % of the way" if gain else ""
+    print(f"  {name:36}" + "".join(f"{value:8.1f}" for value in row) + way, flush=True)
 
 
 def main() -> None:
@@ -194,6 +221,10 @@ def main() -> None:
                 f"{most.others} others in {most.minutes:.1f} min, {OTHERS} examples of others"
             )
             print_row("F1 in sessions", f1)
+            continue
+        if "--shipped" in sys.argv:
+            print(f"people {people[0]} to {people[-1]}, {purpose}: by the shipped library")
+            print_shipped(read_gestures(people))
             continue
         found = figures(read_gestures(people))
         print(
