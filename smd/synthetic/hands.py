@@ -32,6 +32,7 @@ class Hands:
     spread : of both from gesture to gesture of one person.
     aim_rad : of a gesture's heading and elevation.
     stroke_spread, stroke_aim_rad : of its strokes' lengths (logarithm) and directions.
+    stroke_turn_rad : of how far the prop is turned aside between them.
     askew_rad, misfacing_rad : between people, of how the prop is tilted and turned in the hand.
     swing_rad_per_m : how much hands turn as they move, on average: 3 x 3, turn about (left, up,
         front) per displacement along (left, up, front). Who lifts a hand tips it back, and who
@@ -41,7 +42,6 @@ class Hands:
     swing_limit_rad : how much that turns the prop at most.
     roundness : range of how far a person's strokes bow out.
     roundness_spread, skew : from stroke to stroke, as in `strokes.Person`.
-    wobble_rad : range of a person's slow unrest.
     swings : chances that a hand waves no, one and two times more than twice.
     """
 
@@ -51,6 +51,7 @@ class Hands:
     aim_rad: float = np.radians(10.0)
     stroke_spread: float = 0.17
     stroke_aim_rad: float = np.radians(8.0)
+    stroke_turn_rad: float = np.radians(10.0)
     askew_rad: float = np.radians(12.0)
     misfacing_rad: float = np.radians(12.0)
     swing_rad_per_m: tuple[Vector, Vector, Vector] = (
@@ -59,12 +60,11 @@ class Hands:
         (0.0, 0.0, 0.0),
     )
     swing_between: float = 1.0
-    swing_spread: float = 1.5
+    swing_spread: float = 1.0
     swing_limit_rad: float = 0.7
     roundness: tuple[float, float] = (0.03, 0.15)
     roundness_spread: float = 0.5
     skew: float = 0.3
-    wobble_rad: tuple[float, float] = (np.radians(1.0), np.radians(4.0))
     swings: tuple[float, float, float] = (0.6, 0.3, 0.1)
 
 
@@ -75,7 +75,7 @@ MEASURED = Hands()
 def hand_person(rng: np.random.Generator, hands: Hands = MEASURED) -> Person:
     """Return a person drawn at random, whose hands differ from others' as ``hands`` says.
 
-    What is not said there, as tremor and grip, is drawn as `strokes.simulated_person` does.
+    What is not said there, as grip and unrest, is drawn as `strokes.simulated_person` does.
     """
     usual = simulated_person(rng)
     swing = hands.swing_rad_per_m + rng.normal(0.0, hands.swing_between, (3, 3))
@@ -88,6 +88,7 @@ def hand_person(rng: np.random.Generator, hands: Hands = MEASURED) -> Person:
         aim_rad=hands.aim_rad,
         stroke_spread=hands.stroke_spread,
         stroke_aim_rad=hands.stroke_aim_rad,
+        stroke_turn_rad=hands.stroke_turn_rad,
         askew_rad=(rng.normal(0.0, hands.askew_rad), rng.normal(0.0, hands.askew_rad)),
         misfacing_rad=rng.normal(0.0, hands.misfacing_rad),
         swing_rad_per_m=(left, up, front),
@@ -96,6 +97,5 @@ def hand_person(rng: np.random.Generator, hands: Hands = MEASURED) -> Person:
         roundness=rng.uniform(*hands.roundness),
         roundness_spread=hands.roundness_spread,
         skew=hands.skew,
-        wobble_rad=rng.uniform(*hands.wobble_rad),
         swings=int(rng.choice(len(hands.swings), p=hands.swings)),
     )

@@ -88,6 +88,8 @@ class Person:
     swing_spread : of that turn from gesture to gesture, standard deviation, in radians a metre.
     stroke_spread : of the strokes of one gesture, standard deviation of the logarithm of size.
     stroke_aim_rad : error of each stroke's direction, standard deviation about each axis.
+    stroke_turn_rad : how far the prop is turned aside between two strokes, or halfway through a
+        single one: standard deviation about each axis.
     skew : how much earlier or later than halfway a stroke is fastest: standard deviation of the
         logarithm of the power that its time is raised to.
     roundness_spread : from stroke to stroke, standard deviation of the logarithm of roundness.
@@ -114,6 +116,7 @@ class Person:
     swing_spread: float = 0.0
     stroke_spread: float = 0.0
     stroke_aim_rad: float = 0.0
+    stroke_turn_rad: float = 0.0
     skew: float = 0.0
     roundness_spread: float = 0.0
     swings: int = 0

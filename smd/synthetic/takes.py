@@ -32,11 +32,20 @@ class _Manner:
     roundness : how far each bows out, as a share of its length.
     power : of the share of time that is gone, for each: below 1 it is fastest early.
     swing : what is added to the turn of the arm's swing, 3 x 3, rotation per displacement.
+    aside_rad : how far the prop is turned aside at the end of each stroke but the last.
     """
 
     roundness: FloatArray
     power: FloatArray
     swing: FloatArray
+    aside_rad: FloatArray
+
+    def turn_aside(self, done: FloatArray) -> FloatArray:
+        """Return how far the prop is turned aside, ``(n, 3)``, once ``(strokes, n)`` is done."""
+        if len(done) == 1:
+            return np.asarray(4.0 * (done * (1.0 - done)).T @ self.aside_rad)
+        reached = np.concatenate([self.aside_rad[:-1], np.zeros((1, 3))])
+        return np.asarray(done.T @ np.diff(reached, axis=0, prepend=0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +149,7 @@ class Take:
             roundness=person.roundness * np.exp(rng.normal(0.0, person.roundness_spread, n)),
             power=np.exp(rng.normal(0.0, person.skew, n)),
             swing=rng.normal(0.0, person.swing_spread, (3, 3)),
+            aside_rad=rng.normal(0.0, person.stroke_turn_rad, (n, 3)),
         )
         return replace(played, strokes=strokes), manner
 
@@ -167,9 +177,11 @@ class Take:
         )
         local = np.zeros_like(moved)
         swung = np.zeros_like(moved)
+        aside = np.zeros_like(moved)
         for played in self._played:
             last_s = played.gesture.duration_s
             manner = played.manner
+            shares = []
             for stroke, side, roundness, power in zip(
                 played.gesture.strokes, played.side, manner.roundness, manner.power, strict=True
             ):
@@ -183,10 +195,12 @@ class Take:
                     back = progress((begun_s - stroke.duration_s) / REBOUND_S)[:, None]
                     path -= person.rebound_m * back * normalized(move)
                 moved += rotate(played.facing_xyzw, path)
+                shares.append(done[:, 0])
                 local += path
                 swung += path @ manner.swing.T
                 turn = quaternion_from_rotvec(done * np.asarray(stroke.turn_rad))
                 orientation = multiply(orientation, turn)
+            aside += manner.turn_aside(np.array(shares))
         tilt = [person.askew_rad[0], person.misfacing_rad, person.askew_rad[1]]
         askew = quaternion_from_rotvec(tilt)
         most_rad = person.swing_limit_rad
@@ -194,7 +208,9 @@ class Take:
         swing = most_rad * np.tanh(swung / most_rad)
         unrest = _waves(time_s, person.wobble_rad, 0.3, 1.5, rng)
         unrest = unrest + _waves(time_s, person.tremor_rad, 8.0, 12.0, rng)
-        held = multiply(multiply(orientation, askew), quaternion_from_rotvec(swing + unrest))
+        held = multiply(
+            multiply(orientation, askew), quaternion_from_rotvec(swing + aside + unrest)
+        )
         grip = np.broadcast_to(np.asarray(person.grip_m), moved.shape)
         # The hand is where the pivot is; at rest, upright, the pivot is below the centre by grip.
         lever = rotate(held, grip) - rotate(orientation[0], grip[0])

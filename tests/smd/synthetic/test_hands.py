@@ -11,14 +11,13 @@ from smd.synthetic.strokes import STEADY, Person, gesture, simulated_person
 from smd.synthetic.takes import Take
 
 NOTHING = Hands(
-    *(0.0,) * 8,
+    *(0.0,) * 9,
     swing_rad_per_m=((0.0,) * 3,) * 3,
     swing_between=0.0,
     swing_spread=0.0,
     roundness=(0.0, 0.0),
     roundness_spread=0.0,
     skew=0.0,
-    wobble_rad=(0.0, 0.0),
     swings=(1.0, 0.0, 0.0),
 )
 
@@ -58,7 +57,8 @@ def test_people_differ_as_much_as_was_measured():
 def test_hands_that_do_not_differ_keep_only_what_everybody_has():
     (person,) = people(1, NOTHING)
     usual = simulated_person(np.random.default_rng([3, 0]))
-    kept = ("overlap", "bob_m", "grip_m", "drift_m", "tremor_m", "tremor_rad", "rebound_m")
+    kept = ("overlap", "bob_m", "grip_m", "wobble_rad", "drift_m", "tremor_m", "tremor_rad")
+    kept += ("rebound_m",)
     for name in kept:
         assert getattr(person, name) == getattr(usual, name)
     assert replace(person, **{name: getattr(STEADY, name) for name in kept}) == replace(
@@ -68,7 +68,13 @@ def test_hands_that_do_not_differ_keep_only_what_everybody_has():
 
 @pytest.mark.parametrize(
     "habits",
-    [{"stroke_spread": 0.3}, {"stroke_aim_rad": 0.2}, {"skew": 0.4}, {"swing_spread": 2.0}],
+    [
+        {"stroke_spread": 0.3},
+        {"stroke_aim_rad": 0.2},
+        {"stroke_turn_rad": 0.2},
+        {"skew": 0.4},
+        {"swing_spread": 2.0},
+    ],
 )
 def test_an_error_of_strokes_leaves_what_else_a_take_draws_as_it_is(habits):
     # Drawn from the take's own source, one habit would change every other error with it.
@@ -95,6 +101,18 @@ def test_a_stroke_s_error_of_aim_turns_it_and_leaves_its_length():
     ends = np.array([played(person, "walk", seed).position_m[-1] for seed in range(300)])
     assert np.linalg.norm(ends, axis=1) == pytest.approx(0.35, abs=1e-5)
     assert np.degrees(np.arctan2(ends[:, 0], ends[:, 2])).std() == pytest.approx(8.0, rel=0.15)
+
+
+@pytest.mark.parametrize(("action", "at_s"), [("punch", 0.35), ("walk", 1.2)])
+def test_the_prop_is_turned_aside_between_strokes_and_comes_back(action, at_s):
+    person = Person(stroke_turn_rad=np.radians(10.0), overlap=0.0)
+    aside = []
+    for seed in range(300):
+        doodle = played(person, action, seed)
+        turned = rotvec_from_quaternion(doodle.orientation_xyzw)
+        assert turned[[0, -1]] == pytest.approx(np.zeros((2, 3)), abs=1e-4)
+        aside.append(turned[np.searchsorted(doodle.time_s, at_s)])
+    assert np.degrees(np.std(aside, axis=0)) == pytest.approx([10.0] * 3, rel=0.2)
 
 
 def test_a_skewed_stroke_is_fastest_early_or_late_and_ends_where_and_when_it_did():
