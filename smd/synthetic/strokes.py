@@ -84,6 +84,16 @@ class Person:
     misfacing_rad : standing turn of the prop in the hand, about up.
     roundness : how far a stroke bows out sideways, as a share of its length.
     rebound_m : how far the hand springs back after a gesture.
+    swing_limit_rad : how much the arm's swing turns the prop at most.
+    swing_spread : of that turn from gesture to gesture, standard deviation, in radians a metre.
+    stroke_spread : of the strokes of one gesture, standard deviation of the logarithm of size.
+    stroke_aim_rad : error of each stroke's direction, standard deviation about each axis.
+    stroke_turn_rad : how far the prop is turned aside between two strokes, or halfway through a
+        single one: standard deviation about each axis.
+    skew : how much earlier or later than halfway a stroke is fastest: standard deviation of the
+        logarithm of the power that its time is raised to.
+    roundness_spread : from stroke to stroke, standard deviation of the logarithm of roundness.
+    swings : how many times more than twice a waving, clapping or dancing hand goes to and fro.
     """
 
     size: float = 1.0
@@ -102,6 +112,14 @@ class Person:
     misfacing_rad: float = 0.0
     roundness: float = 0.0
     rebound_m: float = 0.0
+    swing_limit_rad: float = 0.3
+    swing_spread: float = 0.0
+    stroke_spread: float = 0.0
+    stroke_aim_rad: float = 0.0
+    stroke_turn_rad: float = 0.0
+    skew: float = 0.0
+    roundness_spread: float = 0.0
+    swings: int = 0
 
 
 STEADY = Person()
@@ -394,12 +412,12 @@ def _nod(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _wave(size: float, person: Person) -> tuple[Stroke, ...]:
     """Rock it from side to side on the spot."""
-    return _rocking(2, 26.0 * size, 4, 0.3)
+    return _rocking(2, 26.0 * size, 4 + 2 * person.swings, 0.3)
 
 
 def _clap(size: float, person: Person) -> tuple[Stroke, ...]:
     """Shake it to the left and the right, twice and more."""
-    return _to_and_fro((0.055 * size, 0.0, 0.0), 6, 0.2)
+    return _to_and_fro((0.055 * size, 0.0, 0.0), 6 + 2 * person.swings, 0.2)
 
 
 def _cheer(size: float, person: Person) -> tuple[Stroke, ...]:
@@ -413,7 +431,7 @@ def _cheer(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _dance(size: float, person: Person) -> tuple[Stroke, ...]:
     """Twist it to and fro on the spot."""
-    return _rocking(1, 32.0 * size, 4, 0.32)
+    return _rocking(1, 32.0 * size, 4 + 2 * person.swings, 0.32)
 
 
 def _crouch(size: float, person: Person) -> tuple[Stroke, ...]:
