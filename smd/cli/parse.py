@@ -43,7 +43,7 @@ def parse(
 
     They are printed, or written as a Score that can be corrected by hand.
     """
-    from smd.score import score_to_json, write_score
+    from smd.score_file import score_to_json, write_score
 
     files = list(reading.recording_files(recordings))
     outputs = targets(recordings, files, output, reading.SCORE_SUFFIX) if output else []

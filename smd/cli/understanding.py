@@ -112,7 +112,7 @@ class Understander:
     def _act_out(self, take: Path, devices: list[str]) -> None:
         import smd
         from smd.cli.parse import table
-        from smd.score import write_score
+        from smd.score_file import write_score
 
         how = self._how
         understood = reading.understanding(

@@ -9,16 +9,8 @@ from hypothesis import strategies as st
 
 from laban import AXES, Effort
 from smd.errors import ExportError, ScoreError
-from smd.score import (
-    Alternative,
-    Part,
-    Phrase,
-    Score,
-    read_score,
-    score_from_json,
-    score_to_json,
-    write_score,
-)
+from smd.score import Alternative, Part, Phrase, Score
+from smd.score_file import read_score, score_from_json, score_to_json, write_score
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "scores"
 
