@@ -5,18 +5,19 @@ from __future__ import annotations
 import difflib
 import json
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from laban import AXES, Effort
 from smd.errors import ScoreError
 from smd.files import replacing
-from smd.score import Alternative, Part, Phrase, Score
+from smd.score import INTENTS, Alternative, Part, Phrase, Score, Suggestion
 
 SCHEMA = "smd.score"
-VERSION = 1
+VERSION = 2
 
 # ---------------------------------------------------------------------------- writing
 
@@ -83,22 +84,55 @@ def _rounded(value: float) -> float:
 
 
 def _part_json(part: Part) -> str:
-    """Return a performer, its phrases a line each."""
-    lines = []
-    previous_end_s = -math.inf
+    """Return a performer, its phrases a line each, and its suggestions alike."""
+    times_s = _phrase_times_s(part)
+    phrases = [
+        _phrase_json(phrase, *both) for phrase, both in zip(part.phrases, times_s, strict=True)
+    ]
+    suggestions = list(_suggestions_json(part, times_s))
+    named = [("library", part.library), ("intent", part.intent)]
+    said = "".join(f'"{key}": {_json(value)}, ' for key, value in named if value)
+    last = f', "suggestions": {_lines_json(suggestions)}' if suggestions else ""
+    return f'    {{"device": {_json(part.device)}, {said}"phrases": {_lines_json(phrases)}{last}}}'
+
+
+def _lines_json(lines: Sequence[str]) -> str:
+    """Return a list of JSON with an item a line."""
+    return "[\n      " + ",\n      ".join(lines) + "\n    ]" if lines else "[]"
+
+
+def _phrase_times_s(part: Part) -> list[tuple[float, float]]:
+    """Return when phrases start and end, as the file says it."""
+    times_s: list[tuple[float, float]] = []
     for phrase in part.phrases:
         # Neighbours may overlap by rounding alone: `Part` allows a nanosecond.
-        start_s = max(_rounded(phrase.start_s), previous_end_s)
-        previous_end_s = _rounded(phrase.end_s)
-        if previous_end_s <= start_s:
+        start_s = max(_rounded(phrase.start_s), times_s[-1][1] if times_s else -math.inf)
+        times_s.append((start_s, _rounded(phrase.end_s)))
+        if times_s[-1][1] <= start_s:
             raise ScoreError(
                 f"device {part.device!r}: phrase {phrase.action!r} at {phrase.start_s:g} s: "
                 f"expected to last at least 0.001 s, got {phrase.end_s - phrase.start_s:g} s"
             )
-        lines.append(f"      {_phrase_json(phrase, start_s, previous_end_s)}")
-    body = "[\n" + ",\n".join(lines) + "\n    ]" if lines else "[]"
-    own = f'"library": {_json(part.library)}, ' if part.library else ""
-    return f'    {{"device": {_json(part.device)}, {own}"phrases": {body}}}'
+    return times_s
+
+
+def _suggestions_json(part: Part, times_s: Sequence[tuple[float, float]]) -> Iterator[str]:
+    """Yield suggestions, one line each: in place of a phrase's, it is a phrase.
+
+    One of which rounding leaves nothing is left out.
+    """
+    real = [both for phrase, both in zip(part.phrases, times_s, strict=True) if not phrase.implied]
+    from_s = -math.inf
+    for one in part.suggestions:
+        middle_s = 0.5 * (one.start_s + one.end_s)
+        start_s = max([_rounded(one.start_s), from_s, *(end for _, end in real if end < middle_s)])
+        end_s = min([_rounded(one.end_s), *(start for start, _ in real if start > middle_s)])
+        from_s = max(from_s, end_s)
+        if end_s > start_s:
+            yield (
+                f'{{"action": {_json(one.action)}, "start_s": {start_s:.3f}, '
+                f'"end_s": {end_s:.3f}, "alternatives": {_alternatives_json(one.likeliest)}}}'
+            )
 
 
 def _phrase_json(phrase: Phrase, start_s: float, end_s: float) -> str:
@@ -107,15 +141,24 @@ def _phrase_json(phrase: Phrase, start_s: float, end_s: float) -> str:
         for axis in AXES
         if (value := getattr(phrase.effort, axis)) is not None
     }
-    alternatives = [
-        {"action": other.action, "distance": _rounded(other.distance)}
-        for other in phrase.alternatives
-    ]
+    implied = ', "implied": true' if phrase.implied else ""
     return (
         f'{{"action": {_json(phrase.action)}, "start_s": {start_s:.3f}, "end_s": {end_s:.3f}, '
         f'"effort": {_json(effort)}, "confidence": {_json(_rounded(phrase.confidence))}, '
-        f'"alternatives": {_json(alternatives)}}}'
+        f'"alternatives": {_alternatives_json(phrase.alternatives)}{implied}}}'
     )
+
+
+def _alternatives_json(alternatives: Iterable[Alternative]) -> str:
+    items = []
+    for other in alternatives:
+        item: dict[str, Any] = {"action": other.action, "distance": _rounded(other.distance)}
+        if other.most is not None:
+            item["most"] = _rounded(other.most)
+        if other.reason:
+            item["reason"] = other.reason
+        items.append(item)
+    return _json(items)
 
 
 # ---------------------------------------------------------------------------- reading
@@ -152,9 +195,11 @@ def score_from_json(text: str, source: str = "score") -> Score:
     """Read a Score from JSON text.
 
     What a person would leave out may be missing: ``recording``, ``library``,
-    ``figure_height_m``, ``reading``, ``warnings``, a performer's ``library``, and a phrase's
-    ``effort``, ``confidence`` and ``alternatives``. Keys that are not known are refused, so that a
-    slip of the pen does not pass for silence.
+    ``figure_height_m``, ``reading``, ``warnings``, a performer's ``library``, ``intent`` and
+    ``suggestions``, and a phrase's ``effort``, ``confidence``, ``alternatives`` and ``implied``.
+    Keys that are not known are refused, so that a slip of the pen does not pass for silence.
+    Phrases may stand in any order: a suggestion becomes one wherever it is moved to, and an
+    implied phrase gives way to it.
 
     Parameters
     ----------
@@ -256,6 +301,17 @@ class _Node:
             raise self.fault("a name")
         return text
 
+    def one_of(self, known: Sequence[str]) -> str:
+        text = self.text()
+        if text not in known:
+            raise self.fault(" or ".join(f'"{each}"' for each in known))
+        return text
+
+    def truth(self) -> bool:
+        if not isinstance(self.value, bool):
+            raise self.fault("true or false")
+        return self.value
+
     def number(self, low: float = -math.inf, high: float = math.inf) -> float:
         expected = "a number" if math.isinf(high) else f"a number in [{low:g}, {high:g}]"
         if isinstance(self.value, bool) or not isinstance(self.value, int | float):
@@ -277,35 +333,112 @@ def _effort(node: _Node) -> Effort:
 
 
 def _alternative(node: _Node) -> Alternative:
-    members = node.members(("action", "distance"))
-    return Alternative(members["action"].name(), members["distance"].number())
+    members = node.members(("action", "distance"), ("most", "reason"))
+    return Alternative(
+        members["action"].name(),
+        members["distance"].number(),
+        members["most"].number() if "most" in members else None,
+        members["reason"].text() if "reason" in members else "",
+    )
 
 
-def _phrase(node: _Node, earliest_s: float) -> Phrase:
-    """Read a phrase that may not start before ``earliest_s``."""
-    members = node.members(("action", "start_s", "end_s"), ("effort", "confidence", "alternatives"))
-    start_s, end_s = members["start_s"].number(), members["end_s"].number()
-    if start_s < earliest_s:
-        raise members["start_s"].fault(f"{earliest_s:g} or later, the end of the phrase before")
-    if end_s <= start_s:
-        raise members["end_s"].fault(f"more than {start_s:g}, its start_s")
+def _alternatives(members: dict[str, _Node]) -> tuple[Alternative, ...]:
+    items = members["alternatives"].items() if "alternatives" in members else []
+    return tuple(_alternative(item) for item in items)
+
+
+def _phrase(node: _Node) -> Phrase:
+    members = node.members(
+        ("action", "start_s", "end_s"), ("effort", "confidence", "alternatives", "implied")
+    )
+    start_s, end_s = _times_s(members)
     values: dict[str, Any] = {}
     if "effort" in members:
         values["effort"] = _effort(members["effort"])
     if "confidence" in members:
         values["confidence"] = members["confidence"].number(0.0, 1.0)
-    if "alternatives" in members:
-        values["alternatives"] = tuple(_alternative(n) for n in members["alternatives"].items())
-    return Phrase(members["action"].name(), start_s, end_s, **values)
+    if "implied" in members:
+        values["implied"] = members["implied"].truth()
+    alternatives = _alternatives(members)
+    return Phrase(members["action"].name(), start_s, end_s, alternatives=alternatives, **values)
+
+
+def _suggestion(node: _Node) -> Suggestion:
+    members = node.members(("action", "start_s", "end_s"), ("alternatives",))
+    start_s, end_s = _times_s(members)
+    action, others = members["action"].name(), _alternatives(members)
+    own = [other for other in others if other.action == action][:1]
+    if not own:
+        raise members["action"].fault("one of its alternatives")
+    return Suggestion(start_s, end_s, (*own, *(other for other in others if other is not own[0])))
+
+
+def _times_s(members: dict[str, _Node]) -> tuple[float, float]:
+    start_s, end_s = members["start_s"].number(), members["end_s"].number()
+    if end_s <= start_s:
+        raise members["end_s"].fault(f"more than {start_s:g}, its start_s")
+    return start_s, end_s
+
+
+def _phrases(node: _Node) -> tuple[Phrase, ...]:
+    """Read phrases in any order into time order, the implied ones where no other is."""
+    found = [(_phrase(item), item) for item in node.items()]
+    real = _in_order([each for each in found if not each[0].implied], "the phrase before")
+    implied = _in_order([each for each in found if each[0].implied], "the phrase before")
+    left = [piece for phrase in implied for piece in _outside(phrase, real)]
+    return tuple(sorted([*real, *left], key=lambda phrase: phrase.start_s))
+
+
+_Timed = TypeVar("_Timed", Phrase, Suggestion)
+
+
+def _in_order(found: list[tuple[_Timed, _Node]], before: str) -> list[_Timed]:
+    """Return what was read in time order, or refuse what starts within what is before it."""
+    found = sorted(found, key=lambda each: each[0].start_s)
+    for (earlier, _), (later, node) in pairwise(found):
+        if later.start_s < earlier.end_s:
+            raise node.options()["start_s"].fault(
+                f"{earlier.end_s:g} or later, the end of {before}"
+            )
+    return [one for one, _ in found]
+
+
+def _outside(implied: Phrase, real: Sequence[Phrase]) -> Iterator[Phrase]:
+    """Yield what is left of an implied phrase beside others."""
+    start_s = implied.start_s
+    for phrase in real:
+        if phrase.end_s > start_s and phrase.start_s < implied.end_s:
+            if phrase.start_s > start_s:
+                yield replace(implied, start_s=start_s, end_s=phrase.start_s)
+            start_s = phrase.end_s
+    if start_s < implied.end_s:
+        yield replace(implied, start_s=start_s)
+
+
+def _suggestions(node: _Node, phrases: Sequence[Phrase]) -> tuple[Suggestion, ...]:
+    """Read suggestions in time order; those that were accepted are to be gone."""
+    found = [(_suggestion(item), item) for item in node.items()]
+    for one, item in found:
+        for phrase in phrases:
+            overlaps = phrase.start_s < one.end_s and phrase.end_s > one.start_s
+            if overlaps and not phrase.implied:
+                raise item.fault(
+                    "movement that no phrase explains: move a suggestion over, do not copy it",
+                    f"{one.start_s:g} to {one.end_s:g} s, which is in the phrase "
+                    f"{_shown(phrase.action)} at {phrase.start_s:g} s",
+                )
+    return tuple(_in_order(found, "the suggestion before"))
 
 
 def _part(node: _Node) -> Part:
-    members = node.members(("device", "phrases"), ("library",))
-    phrases: list[Phrase] = []
-    for item in members["phrases"].items():
-        phrases.append(_phrase(item, phrases[-1].end_s if phrases else -math.inf))
+    members = node.members(("device", "phrases"), ("library", "intent", "suggestions"))
+    phrases = _phrases(members["phrases"])
     library = members["library"].text() if "library" in members else ""
-    return Part(members["device"].name(), tuple(phrases), library)
+    intent = members["intent"].one_of(INTENTS) if "intent" in members else ""
+    suggestions: tuple[Suggestion, ...] = ()
+    if "suggestions" in members:
+        suggestions = _suggestions(members["suggestions"], phrases)
+    return Part(members["device"].name(), phrases, library, intent, suggestions)
 
 
 def _performers(node: _Node) -> tuple[Part, ...]:
@@ -333,8 +466,19 @@ def _check_schema(node: _Node) -> None:
         raise place.fault(f"{VERSION}, the newest this release reads", f"the newer {version}")
 
 
+def _from_version_1(value: dict[str, Any]) -> dict[str, Any]:
+    """Return a Score of version 2: what it has more may be left out."""
+    return {**value, "version": 2}
+
+
+_UPGRADES = {1: _from_version_1}
+"""From each version before this one to the next."""
+
+
 def _score(node: _Node) -> Score:
     _check_schema(node)
+    while node.value["version"] < VERSION:
+        node = replace(node, value=_UPGRADES[node.value["version"]](node.value))
     members = node.members(
         ("schema", "version", "performers"),
         ("recording", "library", "figure_height_m", "reading", "warnings"),
