@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,6 +14,7 @@ from laban import AXES, Effort
 from smd.errors import ScoreError
 from smd.files import replacing
 from smd.score import INTENTS, Alternative, Part, Phrase, Score, Suggestion
+from smd.score_json import Node, shown, without_repeats
 
 SCHEMA = "smd.score"
 VERSION = 2
@@ -216,7 +216,7 @@ def score_from_json(text: str, source: str = "score") -> Score:
     if "\0" in text:
         raise ScoreError(f"{source}: expected UTF-8 text, found zero bytes, as in UTF-16")
     try:
-        value = json.loads(text, object_pairs_hook=_without_repeats)
+        value = json.loads(text, object_pairs_hook=without_repeats)
     except json.JSONDecodeError as error:
         raise ScoreError(
             f"{source}: line {error.lineno}, column {error.colno}: expected JSON, got: {error.msg}"
@@ -225,114 +225,15 @@ def score_from_json(text: str, source: str = "score") -> Score:
         raise ScoreError(f"{source}: expected a Score, found JSON nested too deeply") from None
     except ValueError as error:
         raise ScoreError(f"{source}: expected a Score, got: {error}") from None
-    return _score(_Node(value, source))
+    return _score(Node(value, source))
 
 
-def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object's members; the last of two equal keys would win unseen."""
-    members = dict(pairs)
-    if len(members) < len(pairs):
-        keys = [key for key, _ in pairs]
-        repeated = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"the key {_shown(repeated)} twice in one object")
-    return members
-
-
-def _shown(value: Any) -> str:
-    """Return a value as a message shows it: on one line, cut short."""
-    if isinstance(value, dict):
-        return "an object"
-    if isinstance(value, list):
-        return "a list"
-    text = json.dumps(value)
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
-@dataclass(frozen=True, slots=True)
-class _Node:
-    """A JSON value that knows where it stands, so that each complaint can name the place."""
-
-    value: Any
-    source: str
-    path: str = ""
-
-    def fault(self, expected: str, found: str | None = None) -> ScoreError:
-        place = f"{self.source}: {self.path}" if self.path else self.source
-        return ScoreError(f"{place}: expected {expected}, found {found or _shown(self.value)}")
-
-    def members(self, needed: Iterable[str], spare: Iterable[str] = ()) -> dict[str, _Node]:
-        """Return an object's members, all those needed and no unknown ones."""
-        members = self.options()
-        needed, known = tuple(needed), (*needed, *spare)
-        for key in members:
-            if key not in known:
-                near = difflib.get_close_matches(key, known, n=1)
-                expected = f'"{near[0]}"' if near else "one of " + ", ".join(known)
-                raise self.fault(f"the key {expected}", f"the unknown key {_shown(key)}")
-        for key in needed:
-            if key not in members:
-                raise self.fault(f'the key "{key}"', "none")
-        return members
-
-    def options(self) -> dict[str, _Node]:
-        """Return an object's members, whatever their keys."""
-        if not isinstance(self.value, dict):
-            raise self.fault("an object")
-        prefix = f"{self.path}." if self.path else ""
-        return {
-            key: _Node(value, self.source, f"{prefix}{key}") for key, value in self.value.items()
-        }
-
-    def items(self) -> list[_Node]:
-        if not isinstance(self.value, list):
-            raise self.fault("a list")
-        return [
-            _Node(value, self.source, f"{self.path}[{i}]") for i, value in enumerate(self.value)
-        ]
-
-    def text(self) -> str:
-        if not isinstance(self.value, str):
-            raise self.fault("text in quotes")
-        return self.value
-
-    def name(self) -> str:
-        text = self.text()
-        if not text.strip():
-            raise self.fault("a name")
-        return text
-
-    def one_of(self, known: Sequence[str]) -> str:
-        text = self.text()
-        if text not in known:
-            raise self.fault(" or ".join(f'"{each}"' for each in known))
-        return text
-
-    def truth(self) -> bool:
-        if not isinstance(self.value, bool):
-            raise self.fault("true or false")
-        return self.value
-
-    def number(self, low: float = -math.inf, high: float = math.inf) -> float:
-        expected = "a number" if math.isinf(high) else f"a number in [{low:g}, {high:g}]"
-        if isinstance(self.value, bool) or not isinstance(self.value, int | float):
-            raise self.fault(expected)
-        try:
-            number = float(self.value)
-        except OverflowError:
-            raise self.fault("a finite number") from None
-        if not math.isfinite(number):
-            raise self.fault("a finite number")
-        if not low <= number <= high:
-            raise self.fault(expected)
-        return number
-
-
-def _effort(node: _Node) -> Effort:
+def _effort(node: Node) -> Effort:
     members = node.members((), AXES)
     return Effort(**{axis: value.number(-1.0, 1.0) for axis, value in members.items()})
 
 
-def _alternative(node: _Node) -> Alternative:
+def _alternative(node: Node) -> Alternative:
     members = node.members(("action", "distance"), ("most", "reason"))
     return Alternative(
         members["action"].name(),
@@ -342,12 +243,12 @@ def _alternative(node: _Node) -> Alternative:
     )
 
 
-def _alternatives(members: dict[str, _Node]) -> tuple[Alternative, ...]:
+def _alternatives(members: dict[str, Node]) -> tuple[Alternative, ...]:
     items = members["alternatives"].items() if "alternatives" in members else []
     return tuple(_alternative(item) for item in items)
 
 
-def _phrase(node: _Node) -> Phrase:
+def _phrase(node: Node) -> Phrase:
     members = node.members(
         ("action", "start_s", "end_s"), ("effort", "confidence", "alternatives", "implied")
     )
@@ -363,7 +264,7 @@ def _phrase(node: _Node) -> Phrase:
     return Phrase(members["action"].name(), start_s, end_s, alternatives=alternatives, **values)
 
 
-def _suggestion(node: _Node) -> Suggestion:
+def _suggestion(node: Node) -> Suggestion:
     members = node.members(("action", "start_s", "end_s"), ("alternatives",))
     start_s, end_s = _times_s(members)
     action, others = members["action"].name(), _alternatives(members)
@@ -373,14 +274,14 @@ def _suggestion(node: _Node) -> Suggestion:
     return Suggestion(start_s, end_s, (*own, *(other for other in others if other is not own[0])))
 
 
-def _times_s(members: dict[str, _Node]) -> tuple[float, float]:
+def _times_s(members: dict[str, Node]) -> tuple[float, float]:
     start_s, end_s = members["start_s"].number(), members["end_s"].number()
     if end_s <= start_s:
         raise members["end_s"].fault(f"more than {start_s:g}, its start_s")
     return start_s, end_s
 
 
-def _phrases(node: _Node) -> tuple[Phrase, ...]:
+def _phrases(node: Node) -> tuple[Phrase, ...]:
     """Read phrases in any order into time order, the implied ones where no other is."""
     found = [(_phrase(item), item) for item in node.items()]
     real = _in_order([each for each in found if not each[0].implied], "the phrase before")
@@ -392,7 +293,7 @@ def _phrases(node: _Node) -> tuple[Phrase, ...]:
 _Timed = TypeVar("_Timed", Phrase, Suggestion)
 
 
-def _in_order(found: list[tuple[_Timed, _Node]], before: str) -> list[_Timed]:
+def _in_order(found: list[tuple[_Timed, Node]], before: str) -> list[_Timed]:
     """Return what was read in time order, or refuse what starts within what is before it."""
     found = sorted(found, key=lambda each: each[0].start_s)
     for (earlier, _), (later, node) in pairwise(found):
@@ -415,7 +316,7 @@ def _outside(implied: Phrase, real: Sequence[Phrase]) -> Iterator[Phrase]:
         yield replace(implied, start_s=start_s)
 
 
-def _suggestions(node: _Node, phrases: Sequence[Phrase]) -> tuple[Suggestion, ...]:
+def _suggestions(node: Node, phrases: Sequence[Phrase]) -> tuple[Suggestion, ...]:
     """Read suggestions in time order; those that were accepted are to be gone."""
     found = [(_suggestion(item), item) for item in node.items()]
     for one, item in found:
@@ -425,12 +326,12 @@ def _suggestions(node: _Node, phrases: Sequence[Phrase]) -> tuple[Suggestion, ..
                 raise item.fault(
                     "movement that no phrase explains: move a suggestion over, do not copy it",
                     f"{one.start_s:g} to {one.end_s:g} s, which is in the phrase "
-                    f"{_shown(phrase.action)} at {phrase.start_s:g} s",
+                    f"{shown(phrase.action)} at {phrase.start_s:g} s",
                 )
     return tuple(_in_order(found, "the suggestion before"))
 
 
-def _part(node: _Node) -> Part:
+def _part(node: Node) -> Part:
     members = node.members(("device", "phrases"), ("library", "intent", "suggestions"))
     phrases = _phrases(members["phrases"])
     library = members["library"].text() if "library" in members else ""
@@ -441,25 +342,25 @@ def _part(node: _Node) -> Part:
     return Part(members["device"].name(), phrases, library, intent, suggestions)
 
 
-def _performers(node: _Node) -> tuple[Part, ...]:
+def _performers(node: Node) -> tuple[Part, ...]:
     parts: dict[str, Part] = {}
     for item in node.items():
         part = _part(item)
         if part.device in parts:
-            raise item.fault("each device once", f"the device {_shown(part.device)} again")
+            raise item.fault("each device once", f"the device {shown(part.device)} again")
         parts[part.device] = part
     return tuple(parts.values())
 
 
-def _check_schema(node: _Node) -> None:
+def _check_schema(node: Node) -> None:
     """Refuse what is not a Score, or one of a version that this release cannot know."""
     if not isinstance(node.value, dict):
         raise node.fault("an object")
     schema, version = node.value.get("schema"), node.value.get("version")
     if schema != SCHEMA:
-        found = _shown(schema) if "schema" in node.value else "none"
+        found = shown(schema) if "schema" in node.value else "none"
         raise node.fault(f'the schema "{SCHEMA}"', found)
-    place = _Node(version, node.source, "version")
+    place = Node(version, node.source, "version")
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise place.fault(f"the number {VERSION}", None if "version" in node.value else "none")
     if version > VERSION:
@@ -475,7 +376,7 @@ _UPGRADES = {1: _from_version_1}
 """From each version before this one to the next."""
 
 
-def _score(node: _Node) -> Score:
+def _score(node: Node) -> Score:
     _check_schema(node)
     while node.value["version"] < VERSION:
         node = replace(node, value=_UPGRADES[node.value["version"]](node.value))
