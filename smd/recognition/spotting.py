@@ -40,6 +40,9 @@ what does not is rejected by the limit."""
 WORTH_NAMING = 2.0
 """An action that costs more than so many times its limit is no alternative to another one."""
 
+WORTH_WEIGHING = 4.0
+"""What costs more than so many times its limit is not weighed to the end."""
+
 Fits: TypeAlias = dict[tuple[int, float, float], float]
 """How well stretches fit an action's examples, by action, start and end in seconds."""
 
@@ -66,12 +69,14 @@ class Match:
     distance : what it costs to see the gesture so; for None, what no action may cost.
     confidence : in [0, 1], adding up to 1 over all matches of a gesture.
     terms : what the distance is made of, by name, weights included; empty for None.
+    most : what the distance may be at most for the action to be recognised; infinite for None.
     """
 
     action: str | None
     distance: float
     confidence: float
     terms: tuple[tuple[str, float], ...] = ()
+    most: float = np.inf
 
 
 def learn_action(
@@ -163,6 +168,32 @@ class Recognizer:
         if not moving or not self.names:
             return [Match(None, 0.0, 1.0)]
         return self._matches(motion, runs, [(moving[0], moving[-1] + 1)], np.inf)[0]
+
+    def weigh(
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        spans_s: Sequence[tuple[float, float]],
+    ) -> list[list[Match]]:
+        """Weigh every action, and none, for stretches of a motion; for each the best first.
+
+        Parameters
+        ----------
+        motion, runs
+            Of one doodle.
+        spans_s
+            When each stretch begins and ends; it is weighed from the start of the run that is
+            there to the end of the one that is.
+        """
+        starts_s = np.array([run.start_s for run in runs])
+        stretches = []
+        for start_s, end_s in spans_s:
+            first = max(int(np.searchsorted(starts_s, start_s + 1e-6, side="right")) - 1, 0)
+            last = max(int(np.searchsorted(starts_s, end_s - 1e-6)), first + 1)
+            stretches.append((first, last))
+        if not stretches or not self.names:
+            return [[Match(None, 0.0, 1.0)] for _ in stretches]
+        return self._matches(motion, runs, stretches, WORTH_WEIGHING)
 
     def spot(self, doodle: Doodle) -> list[Span]:
         """Find the actions in a doodle, in time order.
@@ -382,8 +413,16 @@ class Recognizer:
         share = (weight / weight.sum()).tolist()
         weighed = np.where(self._verified, len(TERMS), 1).tolist()  # without examples, the tokens
         matches = [
-            Match(name, float(each.sum()), p, tuple(zip(TERMS, each[:n].tolist(), strict=False)))
-            for name, each, p, n in zip(self.names, terms, share[:-1], weighed, strict=True)
+            Match(
+                name,
+                float(each.sum()),
+                p,
+                tuple(zip(TERMS, each[:n].tolist(), strict=False)),
+                most,
+            )
+            for name, each, p, n, most in zip(
+                self.names, terms, share[:-1], weighed, limit.tolist(), strict=True
+            )
         ]
         matches.append(Match(None, nothing, share[-1]))
         return sorted(matches, key=lambda match: match.distance)
