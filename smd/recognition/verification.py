@@ -157,7 +157,7 @@ class Verification:
         terms = np.full((len(action), len(TERMS)), np.inf)
         terms[:, 0] = WEIGHTS[0] * wrong
         deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
-        terms[:, _MEASURES] = WEIGHTS[_MEASURES] * _oddness(deviation)
+        terms[:, _MEASURES] = WEIGHTS[_MEASURES] * oddness(deviation)
         known = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
         floor = np.zeros((len(action), len(COURSES)))  # what courses cost that are not warped yet
         left = np.flatnonzero(known <= most)
@@ -202,7 +202,7 @@ class Verification:
         if not len(action):
             return found
         deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
-        glance = WEIGHTS[0] * wrong + (WEIGHTS[_MEASURES] * _oddness(deviation)).sum(axis=1)
+        glance = WEIGHTS[0] * wrong + (WEIGHTS[_MEASURES] * oddness(deviation)).sum(axis=1)
         order = np.lexsort((glance, gesture))
         first = order[np.unique(gesture[order], return_index=True)[1]]
         rest = np.setdiff1d(np.arange(len(action)), first)
@@ -256,7 +256,7 @@ def _left_out_costs(exemplar: Exemplar) -> FloatArray:
     if n == 0:
         return np.zeros(0)
     others = (exemplar.measures.sum(axis=0) - exemplar.measures) / (n - 1)
-    odd = _oddness((exemplar.measures - others) / exemplar.spread)
+    odd = oddness((exemplar.measures - others) / exemplar.spread)
     terms = np.hstack([np.zeros((n, 1)), exemplar.apart / exemplar.scale, odd])
     return np.asarray(terms @ WEIGHTS)
 
@@ -269,6 +269,6 @@ def _pooled(costs: FloatArray, prior: float) -> float:
     return float(np.exp((PRIOR_COSTS * np.log(prior) + count * mean) / (PRIOR_COSTS + count)))
 
 
-def _oddness(deviation: FloatArray) -> FloatArray:
+def oddness(deviation: FloatArray) -> FloatArray:
     """Return the negative logarithm of Student's density, 0 at its peak."""
     return 0.5 * (_FREEDOM + 1.0) * np.log1p(np.square(deviation) / _FREEDOM)
