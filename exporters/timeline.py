@@ -1,7 +1,8 @@
 """What was understood of a recording, under the trajectory it was understood from.
 
 For each device, on one time axis: where the prop went and how fast, the tokens of its movement,
-the phrases of the Score, and their Effort; where tracking was lost is hatched.
+the phrases of the Score, and their Effort; where tracking was lost is hatched. What the Score
+suggests, and no phrase explains, is hollow; phrases that are implied are pale.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from exporters.palette import RGB, action_colors
+from exporters.palette import IDLE_RGB, RGB, action_colors
 from laban import AXES, EffortCurve, RigidMotion, effort_over_time, load_effort_model
 from smd.errors import DoodleError
 from smd.files import replacing
@@ -42,12 +43,16 @@ _INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A span of time in a lane; the first of its texts that fits is written in it."""
+    """A span of time in a lane; the first of its texts that fits is written in it.
+
+    A hollow one is an outline in its colour.
+    """
 
     start_s: float
     end_s: float
     texts: tuple[str, ...]
     color: RGB
+    hollow: bool = False
 
 
 def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> None:
@@ -84,6 +89,7 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         _draw_blocks(axes["moves"], _token_blocks(strings, lambda token: token.translation, "T"))
         _draw_blocks(axes["turns"], _token_blocks(strings, lambda token: token.rotation, "R"))
         _draw_blocks(axes["phrase"], _phrase_blocks(part, action_colors(score)))
+        _draw_blocks(axes["phrase"], _suggestion_blocks(part))
         curves = [effort_over_time(motion, model) for _, motion in motions]
         _draw_effort(axes["effort"], part, curves)
         _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])
@@ -214,8 +220,27 @@ def _phrase_blocks(part: Part, colors: dict[str, RGB]) -> list[Block]:
     blocks = []
     for phrase in part.phrases:
         name = phrase.action
-        texts = f"{name} {round(100 * phrase.confidence)} %", name, name.replace("_", "\n")
-        blocks.append(Block(phrase.start_s, phrase.end_s, texts, colors[name]))
+        texts = [name, name.replace("_", "\n")]
+        if not phrase.implied:
+            texts.insert(0, f"{name} {round(100 * phrase.confidence)} %")
+        color = _paler(colors[name]) if phrase.implied else colors[name]
+        blocks.append(Block(phrase.start_s, phrase.end_s, tuple(texts), color))
+    return blocks
+
+
+def _paler(color: RGB) -> RGB:
+    """Return a colour two thirds of the way to white."""
+    red, green, blue = ((2.0 + value) / 3.0 for value in color)
+    return red, green, blue
+
+
+def _suggestion_blocks(part: Part) -> list[Block]:
+    """Return what no phrase explains, hollow: what it is most like, with a question mark."""
+    blocks = []
+    for suggestion in part.suggestions:
+        name = suggestion.action
+        texts = f"{name}?", name.replace("_", "\n") + "?", "?"
+        blocks.append(Block(suggestion.start_s, suggestion.end_s, texts, IDLE_RGB, hollow=True))
     return blocks
 
 
@@ -224,14 +249,14 @@ def _draw_blocks(axes: Any, blocks: Sequence[Block]) -> None:
     axes.broken_barh(
         [(block.start_s, block.end_s - block.start_s) for block in blocks],
         (0.08, 0.84),
-        facecolors=[block.color for block in blocks],
-        edgecolors="white",
-        linewidths=0.6,
+        facecolors=["none" if block.hollow else block.color for block in blocks],
+        edgecolors=[block.color if block.hollow else "white" for block in blocks],
+        linewidths=[1.2 if block.hollow else 0.6 for block in blocks],
     )
     for block in blocks:
         text = _fitting(axes, block)
         if text:
-            bright = np.dot(block.color, (0.3, 0.59, 0.11)) > 0.58
+            bright = block.hollow or np.dot(block.color, (0.3, 0.59, 0.11)) > 0.58
             axes.text(
                 0.5 * (block.start_s + block.end_s),
                 0.47,

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from smd.doodle import Doodle, Recording
     from smd.recognition.recognizer import Span
     from smd.recognition.spotting import Recognizer
-    from smd.score import Phrase, Score
+    from smd.recognition.suggestions import Understood
+    from smd.score import Phrase, Score, Suggestion
     from smd.transfer.performance import Performance
     from smd.transfer.terrain import Terrain
 
@@ -52,7 +53,8 @@ def parse(
     Returns
     -------
     Score
-        A part for each device, in the recording's order; a part may be empty.
+        A part for each device, in the recording's order; a part may be empty. What no phrase
+        explains, and is like an action, is among its suggestions.
 
     Raises
     ------
@@ -71,18 +73,25 @@ def parse(
     cast.check(recording.devices)
     recognizers: dict[Library, Recognizer] = {}
     model = load_effort_model()
-    parts, warnings = [], []
+    parts, warnings = [], list(_without_examples(cast))
     for device in _performing(recording, devices):
         own = cast.of(device)
         if own not in recognizers:
             recognizers[own] = Recognizer(own, figure_height_m=figure_height_m, tolerance=tolerance)
-        played: list[tuple[Span, RigidMotion]] = []
+        understood: list[Understood] = []
         for doodle in recording.of(device):
             try:
-                played.extend(_played(doodle, recognizers[own]))
+                understood.append(_understood(doodle, recognizers[own]))
             except DoodleError as error:
                 warnings.append(f"left out: {error}")
-        parts.append(Part(device, tuple(_phrases(played, model))))
+        played = [
+            (span, one.motion.between(span.start_s, span.end_s))
+            for one in understood
+            for span in one.spans
+        ]
+        phrases = tuple(_phrases(played, model))
+        suggested = tuple(_suggestions(understood, recognizers[own], own, figure_height_m))
+        parts.append(Part(device, phrases, suggestions=suggested))
         warnings.extend(_lost_tracking(recording, device))
     if not devices:
         warnings.extend(_never_tracked(recording))
@@ -104,13 +113,44 @@ def _performing(recording: Recording, devices: Collection[str] | None) -> tuple[
     return played or known
 
 
-def _played(doodle: Doodle, recognizer: Recognizer) -> Iterator[tuple[Span, RigidMotion]]:
-    """Yield the actions of one doodle, and how each was drawn."""
+def _understood(doodle: Doodle, recognizer: Recognizer) -> Understood:
+    """Return one doodle's motion, tokens and actions."""
+    from smd.recognition.suggestions import Understood
     from smd.smoothing import smooth
 
     motion = smooth(doodle)
-    for span in recognizer.spot_runs(motion, recognizer.runs_of(doodle, motion)):
-        yield span, motion.between(span.start_s, span.end_s)
+    runs = recognizer.runs_of(doodle, motion)
+    return Understood(motion, runs, recognizer.spot_runs(motion, runs))
+
+
+def _suggestions(
+    understood: Sequence[Understood],
+    recognizer: Recognizer,
+    library: Library,
+    figure_height_m: float,
+) -> Iterator[Suggestion]:
+    """Yield what a performer did that nothing explains; times to the millisecond, as phrases'."""
+    from smd.recognition.suggestions import suggestions
+    from smd.score import Alternative, Suggestion
+
+    for one in suggestions(
+        recognizer, library.actions, understood, figure_height_m=figure_height_m
+    ):
+        yield Suggestion(
+            round(one.start_s, 3),
+            round(one.end_s, 3),
+            tuple(Alternative(c.action, c.cost, c.most, c.reason) for c in one.likeliest),
+        )
+
+
+def _without_examples(cast: Cast) -> Iterator[str]:
+    """Yield a line where a library can only be recognised the old way, by tokens alone."""
+    libraries = (cast.shared, *cast.own.values())
+    if any(not any(action.exemplar for action in library.actions) for library in libraries):
+        yield (
+            "library: no action has examples, so gestures are told by their tokens alone; "
+            "smd teach and smd learn add some"
+        )
 
 
 def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> Iterator[Phrase]:

@@ -13,7 +13,7 @@ from smd.cli.batch import for_each, targets
 
 if TYPE_CHECKING:
     from laban import Effort
-    from smd.score import Score
+    from smd.score import Score, Suggestion
 
 
 def parse(
@@ -80,7 +80,10 @@ def parse(
 
 
 def table(score: Score, *, others: int = 0) -> list[str]:
-    """Return a Score as lines of a table, one phrase a line, with so many alternatives to each."""
+    """Return a Score as lines of a table, one phrase a line, with so many alternatives to each.
+
+    Suggestions follow a performer's phrases, a line each as well.
+    """
     lines = []
     for part in score.performers:
         lines.append(f"  {part.device}" + ("" if part.phrases else ": nothing recognised"))
@@ -90,6 +93,7 @@ def table(score: Score, *, others: int = 0) -> list[str]:
             )
             names = ", ".join(other.action for other in phrase.alternatives[:others])
             lines.append(f"    {line}" + (f"  or {names}" if names else ""))
+        lines.extend(f"    {suggested(suggestion)}" for suggestion in part.suggestions)
     lines.extend(f"  {line}" for line in score.warnings)
     return lines
 
@@ -104,3 +108,12 @@ def row(start_s: float, end_s: float, action: str, confidence: float, effort: Ef
     return (
         f"{start_s:8.2f} – {end_s:7.2f} s  {action:<16} confidence {confidence:.2f}  {efforts}"
     ).rstrip()
+
+
+def suggested(suggestion: Suggestion) -> str:
+    """Return what was not recognised as a line: what it is most like, and what kept that out."""
+    best, *others = suggestion.likeliest
+    line = f"{suggestion.start_s:8.2f} – {suggestion.end_s:7.2f} s  {best.action + '?':<16} "
+    line += best.reason or "not recognised"
+    names = ", ".join(other.action for other in others)
+    return line + (f"; or {names}" if names else "")

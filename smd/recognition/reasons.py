@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from smd.recognition.spotting import Match
 
 FITS, OUTDONE = "would pass by itself", "another action fits better"
+WITHIN = "like its examples, but for the tolerance"
 ANOTHER_WAY, TURNED = "another way", "held or turned otherwise"
 OTHER_STROKES, OTHER_RHYTHM = "other strokes", "another rhythm"
 
@@ -61,6 +62,8 @@ def reason_of(match: Match, action: Action, measures: FloatArray) -> str:
         name: value - usual for (name, value), usual in zip(match.terms, _usual(), strict=True)
     }
     most = max(excess, key=lambda name: excess[name])
+    if excess[most] <= 0.0:
+        return WITHIN
     reasons = [said[most] if most in said else _of_course(most, excess)]
     farthest = int(np.argmax(np.abs(deviation)))
     if abs(deviation[farthest]) >= FAR_OUT:

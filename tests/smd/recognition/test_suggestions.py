@@ -10,7 +10,7 @@ import pytest
 from smd.doodle import Doodle
 from smd.geometry.rotations import multiply, quaternion_about
 from smd.recognition import Recognizer, learn_action
-from smd.recognition.reasons import TURNED, reason_of
+from smd.recognition.reasons import TURNED, WITHIN, reason_of
 from smd.recognition.suggestions import (
     LONGEST_S,
     MEANT,
@@ -104,7 +104,7 @@ def test_the_reason_names_what_was_changed(recognizer, actions, change, said):
 def test_a_prop_that_is_held_otherwise_is_told_so(recognizer, actions):
     doodle = take(4, "walk").doodle()
     rolled = multiply(doodle.orientation_xyzw, quaternion_about([0.0, 0.0, 1.0], 2.0))
-    assert kept_out(recognizer, actions, doodle, "walk") != TURNED
+    assert kept_out(recognizer, actions, doodle, "walk") == WITHIN
     turned = replace(doodle, orientation_xyzw=rolled)
     assert TURNED in kept_out(recognizer, actions, turned, "walk")
 
