@@ -9,6 +9,7 @@ import typer
 
 from smd.cli import reading, writing
 from smd.cli.batch import for_each, targets
+from smd.cli.next_steps import next_steps
 
 if TYPE_CHECKING:
     from smd.transfer.performance import Performance
@@ -81,5 +82,7 @@ def convert(
         performance = written.write(score, act, expressiveness, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
+        for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
+            typer.echo(f"  {line}")
 
     for_each(files, one)

@@ -10,6 +10,7 @@ import typer
 
 from smd.cli import reading
 from smd.cli.batch import for_each, targets
+from smd.cli.next_steps import next_steps
 
 if TYPE_CHECKING:
     from laban import Effort
@@ -67,6 +68,10 @@ def parse(
                 from smd.cli.explain import explanation
 
                 typer.echo("\n".join(explanation(score, recording, cast)))
+            for line in next_steps(
+                file, recording, score, cast, options=options, tolerance=tolerance
+            ):
+                typer.echo(f"  {line}")
             if outputs:
                 typer.echo(f"written: {outputs[index]}")
 

@@ -61,3 +61,45 @@ def test_a_recording_of_stillness_has_no_suggestion_and_no_heading(run_smd, stil
     assert (code, err) == (0, "")
     assert "?" not in out
     assert "nothing in it is like an action" in out
+
+
+def typed_advice(out: str) -> list[str]:
+    """Return the options that a command says to try, as they are to be typed."""
+    (line,) = [line for line in out.splitlines() if line.startswith("  try --")]
+    return line.removeprefix("  try ").partition(":")[0].split()
+
+
+@pytest.mark.parametrize(
+    "mistake", [["--mount", "yaw=180"], ["--mount", "roll=180"], ["--unit", "mm"], ["--up", "-y"]]
+)
+def test_a_story_read_wrongly_is_mended_by_what_is_printed(run_smd, stories, mistake):
+    take = stories / "fledgling.csv"
+    _, right, _ = run_smd("parse", take)
+    code, out, err = run_smd("parse", take, *mistake)
+    assert (code, err) == (0, "")
+    advice = typed_advice(out)
+    assert "8 phrases would be recognised" in out
+    said = dict(zip(mistake[::2], mistake[1::2], strict=True))
+    said |= dict(zip(advice[::2], advice[1::2], strict=True))
+    _, mended, _ = run_smd("parse", take, *(part for pair in said.items() for part in pair))
+    assert mended == right
+
+
+def test_convert_says_the_same_and_json_stays_json(run_smd, stories, tmp_path):
+    take = stories / "fledgling.csv"
+    _, out, _ = run_smd("convert", take, "-o", tmp_path / "out.usdc", "--mount", "roll=180")
+    assert typed_advice(out) == ["--mount", "yaw=0"]
+    _, out, _ = run_smd("parse", take, "--mount", "roll=180", "--json")
+    assert json.loads(out)["performers"]
+
+
+def test_where_no_reading_helps_other_ways_on_are_named(run_smd, tmp_path):
+    take = tmp_path / "one_way.csv"
+    rows = "".join(f"{i / 60:.4f},{0.01 * i},1,0,0,0,0,1\n" for i in range(40))
+    rest = "".join(f"{i / 60:.4f},0.39,1,0,0,0,0,1\n" for i in range(40, 100))
+    take.write_text("time_s,x,y,z,qx,qy,qz,qw\n" + rows + rest, encoding="utf-8")
+    code, out, err = run_smd("parse", take, "--tolerance", "0.05")
+    assert (code, err) == (0, "")
+    assert "nothing recognised" in out
+    for word in ("smd rehearse", "smd teach", "--unexplained follow"):
+        assert word in out
