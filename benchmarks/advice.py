@@ -18,10 +18,9 @@ from smd.advice import (
     LEAST_PHRASES,
     Asked,
     Trials,
-    axes_otherwise,
     better_reading,
     busiest,
-    size_otherwise,
+    otherwise,
 )
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Recording
 from smd.formats.frame import SourceFrame
@@ -98,9 +97,10 @@ def shares_in_any_reading(path: Path, cast: smd.Cast) -> Iterator[float]:
     recording: Recording = smd.read_recording(path)
     asked = Asked({}, format_frame(path), DEFAULT_FIGURE_HEIGHT_M)
     devices = [part.device for part in smd.parse(recording, cast).performers]
-    sample = [busiest([doodle for device in devices for doodle in recording.of(device)])]
+    doodles = [doodle for device in devices for doodle in recording.of(device)]
+    sample = [busiest(doodles)]
     trials = Trials(cast, asked)
-    for options in (*axes_otherwise(asked), *size_otherwise(asked)):
+    for options in otherwise(doodles, asked):
         found = trials.of(sample, options)
         if found.phrases >= LEAST_PHRASES:
             yield found.share

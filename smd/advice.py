@@ -128,14 +128,14 @@ def better_reading(
     doodles = [doodle for device in devices for doodle in recording.of(device)]
     if not doodles or not any(_moves(doodle) for doodle in doodles):
         return None
-    largest = max(doodles, key=_size_m)
-    size_fits = _size_fits(largest, asked.figure_height_m)
-    present = understood_share(recording, score) if size_fits else 0.0
+    present = 0.0
+    if _size_fits(doodles, asked.figure_height_m):
+        present = understood_share(recording, score)
     if present >= UNDERSTOOD:
         return None
     sample, trials = [busiest(doodles)], Trials(library, asked)
     best, most = None, Explained()
-    for options in axes_otherwise(asked) if size_fits else size_otherwise(asked):
+    for options in otherwise(doodles, asked):
         if only and not set(options) <= set(only):
             continue
         found = trials.of(sample, options)
@@ -147,6 +147,12 @@ def better_reading(
     if not whole.readable or 1.0 - whole.share > LEFT_OVER * (1.0 - present):
         return None
     return Reading(tuple(best.items()), whole.phrases, whole.share)
+
+
+def otherwise(doodles: Sequence[Doodle], asked: Asked) -> Iterator[dict[str, str]]:
+    """Return what else could be said: of the axes, unless the size makes no sense as it is."""
+    size_fits = _size_fits(doodles, asked.figure_height_m)
+    return axes_otherwise(asked) if size_fits else size_otherwise(asked)
 
 
 def size_otherwise(asked: Asked) -> Iterator[dict[str, str]]:
@@ -253,7 +259,7 @@ class Trials:
         before = asked.conversion(asked.options)
         after = asked.conversion({**asked.options, **of_frame})
         read = [_reread(doodle, before, after) for doodle in doodles]
-        if not _size_fits(max(read, key=_size_m), height_m):
+        if not _size_fits(read, height_m):
             return Explained()
         return _explained(read, {d.device: self._recognizer(d.device, height_m) for d in doodles})
 
@@ -299,9 +305,10 @@ def _size_m(doodle: Doodle) -> float:
     return float(np.linalg.norm(np.ptp(doodle.position_m, axis=0)))
 
 
-def _size_fits(doodle: Doodle, figure_height_m: float) -> bool:
-    """Tell whether a prop goes as far as one that is played with."""
-    return LEAST_HEIGHTS <= _size_m(doodle) / figure_height_m <= MOST_HEIGHTS
+def _size_fits(doodles: Iterable[Doodle], figure_height_m: float) -> bool:
+    """Tell whether the prop that goes farthest goes as far as one that is played with."""
+    largest_m = max(_size_m(doodle) for doodle in doodles)
+    return LEAST_HEIGHTS <= largest_m / figure_height_m <= MOST_HEIGHTS
 
 
 def _moves(doodle: Doodle) -> bool:

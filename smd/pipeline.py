@@ -26,6 +26,10 @@ HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
 """Names of devices that are worn, not played with."""
 
 
+UNEXPLAINED = ("leave", "follow")
+"""What is made of travel in which nothing is recognised."""
+
+
 def parse(
     recording: Recording,
     library: Library | Cast,
@@ -33,6 +37,7 @@ def parse(
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
     devices: Collection[str] | None = None,
     tolerance: float = 1.0,
+    unexplained: str = "leave",
 ) -> Score:
     """Recognise the actions in a recording and read the Effort of each.
 
@@ -49,6 +54,9 @@ def parse(
     tolerance
         How unlike an action's examples a gesture may be, positive: below 1 more is rejected,
         above it less (docs/verification.md has the trade-off).
+    unexplained
+        What to make of travel in which nothing is recognised: "leave" it, or "follow" it, with
+        phrases in the gait that suits, marked as implied; clips of gaits are then read.
 
     Returns
     -------
@@ -59,15 +67,19 @@ def parse(
     Raises
     ------
     ScoreError
-        If the figure height is not positive, or a device is not in the recording.
+        If the figure height is not positive, ``unexplained`` is neither, or a device is not in the
+        recording.
     LibraryError
         If a cast has a library for a device that is not in the recording.
     """
     from actions_library.cast import cast_of
     from laban import load_effort_model
+    from smd.following import going_along
     from smd.recognition.spotting import Recognizer
     from smd.score import Part, Score
 
+    if unexplained not in UNEXPLAINED:
+        raise ScoreError(f"unexplained: expected {' or '.join(UNEXPLAINED)}, got {unexplained!r}")
     empty = Score((), recording.source, figure_height_m=figure_height_m)
     cast = cast_of(library)
     cast.check(recording.devices)
@@ -90,6 +102,13 @@ def parse(
             for span in one.spans
         ]
         phrases = tuple(_phrases(played, model))
+        if unexplained == "follow":
+            phrases = going_along(
+                phrases,
+                [one.motion for one in understood],
+                own,
+                figure_height_m=figure_height_m,
+            )
         suggested = tuple(_suggestions(understood, recognizers[own], own, figure_height_m))
         parts.append(Part(device, phrases, suggestions=suggested))
         warnings.extend(_lost_tracking(recording, device))

@@ -27,6 +27,7 @@ def convert(
     library: reading.Libraries = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
+    unexplained: reading.Unexplained = reading.UnexplainedName.LEAVE,
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
@@ -61,7 +62,13 @@ def convert(
     folders = reading.LibraryFolders.from_options(library)
     cast = folders.load()
     understood = reading.understanding(
-        options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
+        options,
+        cast,
+        folders,
+        figure_height_m=figure_height,
+        devices=device,
+        tolerance=tolerance,
+        unexplained=unexplained,
     )
     terrain = None if ground is None else read_terrain(ground)
 

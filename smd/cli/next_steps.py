@@ -70,4 +70,5 @@ def next_steps(
             what = "suggestion" if near == 1 else "suggestions"
             yield f"or --tolerance {factor * tolerance:g}: {near} {what} may pass"
             break
-    yield "or --unexplained follow: the character goes along where nothing is recognised"
+    if not any(phrase.implied for part in score.performers for phrase in part.phrases):
+        yield "or --unexplained follow: the character goes along where nothing is recognised"

@@ -32,6 +32,7 @@ def parse(
     library: reading.Libraries = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
+    unexplained: reading.Unexplained = reading.UnexplainedName.LEAVE,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -52,7 +53,13 @@ def parse(
     folders = reading.LibraryFolders.from_options(library)
     cast = folders.load()
     understood = reading.understanding(
-        options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
+        options,
+        cast,
+        folders,
+        figure_height_m=figure_height,
+        devices=device,
+        tolerance=tolerance,
+        unexplained=unexplained,
     )
     scores: list[Score] = []
 
@@ -91,8 +98,13 @@ def table(score: Score, *, others: int = 0) -> list[str]:
     """
     lines = []
     for part in score.performers:
-        lines.append(f"  {part.device}" + ("" if part.phrases else ": nothing recognised"))
+        recognised = not all(phrase.implied for phrase in part.phrases)
+        lines.append(f"  {part.device}" + ("" if recognised else ": nothing recognised"))
         for phrase in part.phrases:
+            if phrase.implied:
+                times = f"{phrase.start_s:8.2f} – {phrase.end_s:7.2f} s"
+                lines.append(f"    {times}  {phrase.action:<16} implied")
+                continue
             line = row(
                 phrase.start_s, phrase.end_s, phrase.action, phrase.confidence, phrase.effort
             )

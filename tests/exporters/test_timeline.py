@@ -68,7 +68,10 @@ def test_an_implied_phrase_is_paler(performance):
     (meant,) = timeline._phrase_blocks(Part("a", (walk,)), colors)
     (block,) = timeline._phrase_blocks(implied, colors)
     assert all(ours > theirs for ours, theirs in zip(block.color, meant.color, strict=True))
-    assert block.texts == meant.texts[1:]
+    assert (block.texts, block.half) == (("walk",), "lower")
+    wave = Suggestion(10.3, 10.6, (Alternative("wave", 2.0),))
+    (above,) = timeline._suggestion_blocks(replace(implied, suggestions=(wave,)))
+    assert above.half == "upper"
 
 
 def test_a_dropout_is_marked_over_its_time_in_its_device_alone(
