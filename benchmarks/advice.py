@@ -1,5 +1,7 @@
 """Advice: which mistakes in how a recording is read are told, and whether free play is left alone.
 
+What is suggested, and what that costs, comes first.
+
 Run ``python -m benchmarks.advice``. Shipped stories are read with a mistake that one option mends.
 Real recordings hold no gesture of the library: nothing should be advised. Of those, the A-Frame
 sessions dance and grabLeft and the first nine idle hands (in name order) were looked at when the
@@ -22,9 +24,12 @@ from smd.advice import (
     busiest,
     otherwise,
 )
-from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Recording
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle, Recording
 from smd.formats.frame import SourceFrame
 from smd.formats.reading import format_frame
+from smd.recognition import Recognizer
+from smd.recognition.suggestions import Understood, suggestions
+from smd.smoothing import smooth
 
 RECORDINGS = Path(__file__).parents[1] / "recordings"
 MISTAKES: tuple[Mapping[str, str], ...] = (
@@ -38,6 +43,9 @@ MISTAKES: tuple[Mapping[str, str], ...] = (
     {"unit": "cm"},
     {"unit": "mm"},
 )
+SHORTEST = 20
+"""Samples of a doodle that is long enough to be smoothed."""
+
 CHOSEN_SESSIONS, CHOSEN_IDLE = ("dance", "grabLeft"), 9
 
 
@@ -114,8 +122,40 @@ def _took(costs: list[tuple[float, float]]) -> str:
     )
 
 
+def suggesting(name: str, paths: list[Path]) -> None:
+    """Print how much is suggested on recordings, and what that costs beside recognition."""
+    library = smd.load_library()
+    recognizer = Recognizer(library)
+    spotted_s, suggested_s, count, seconds = 0.0, 0.0, 0, 0.0
+    for path in paths:
+        recording = smd.read_recording(path)
+        for device in recording.devices:
+            begun = time.process_time()
+            understood = [
+                _understood(doodle, recognizer)
+                for doodle in recording.of(device)
+                if len(doodle) > SHORTEST
+            ]
+            spotted = time.process_time()
+            count += len(suggestions(recognizer, library.actions, understood))
+            spotted_s += spotted - begun
+            suggested_s += time.process_time() - spotted
+            seconds += sum(doodle.duration_s for doodle in recording.of(device))
+    print(
+        f"{name}: {60.0 * count / seconds:.1f} suggestions a minute of {seconds / 60.0:.1f}; "
+        f"recognising took {spotted_s:.2f} s, suggesting {suggested_s:.2f} s"
+    )
+
+
+def _understood(doodle: Doodle, recognizer: Recognizer) -> Understood:
+    motion = smooth(doodle)
+    runs = recognizer.runs_of(doodle, motion)
+    return Understood(motion, runs, recognizer.spot_runs(motion, runs))
+
+
 def main() -> None:
     """Print all of it."""
+    suggesting("stories", sorted(RECORDINGS.glob("*.csv")))
     stories()
     if not SHARED_DATA.is_dir():
         print(f"real recordings: skipped, {SHARED_DATA} is absent")
@@ -123,6 +163,8 @@ def main() -> None:
     sessions = sorted((SHARED_DATA / "controllers" / "aframe" / "raw").glob("*.json"))
     idle = sorted((SHARED_DATA / "idle").glob("*.csv"))
     chosen = [path for path in sessions if path.stem in CHOSEN_SESSIONS]
+    suggesting("A-Frame sessions", sessions)
+    suggesting("idle hands", idle)
     free_play("chosen on", chosen + idle[:CHOSEN_IDLE])
     others = [path for path in sessions if path.stem not in CHOSEN_SESSIONS]
     free_play("not looked at", others + idle[CHOSEN_IDLE:])

@@ -40,9 +40,6 @@ what does not is rejected by the limit."""
 WORTH_NAMING = 2.0
 """An action that costs more than so many times its limit is no alternative to another one."""
 
-WORTH_WEIGHING = 4.0
-"""What costs more than so many times its limit is not weighed to the end."""
-
 Fits: TypeAlias = dict[tuple[int, float, float], float]
 """How well stretches fit an action's examples, by action, start and end in seconds."""
 
@@ -183,7 +180,8 @@ class Recognizer:
             Of one doodle.
         spans_s
             When each stretch begins and ends; it is weighed from the start of the run that is
-            there to the end of the one that is.
+            there to the end of the one that is. What costs more than `WORTH_NAMING` times what it
+            may is not weighed to the end, and infinite.
         """
         starts_s = np.array([run.start_s for run in runs])
         stretches = []
@@ -193,7 +191,7 @@ class Recognizer:
             stretches.append((first, last))
         if not stretches or not self.names:
             return [[Match(None, 0.0, 1.0)] for _ in stretches]
-        return self._matches(motion, runs, stretches, WORTH_WEIGHING)
+        return self._matches(motion, runs, stretches, WORTH_NAMING)
 
     def spot(self, doodle: Doodle) -> list[Span]:
         """Find the actions in a doodle, in time order.

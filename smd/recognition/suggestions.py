@@ -13,7 +13,7 @@ from smd.geometry.arrays import FloatArray
 from smd.recognition.action import Action
 from smd.recognition.reasons import OUTDONE, reason_of
 from smd.recognition.recognizer import Span
-from smd.recognition.spotting import Match, Recognizer
+from smd.recognition.spotting import WORTH_NAMING, Match, Recognizer
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of_parts
 
@@ -27,13 +27,10 @@ MEANT = 0.5
 """Movement (figure heights travelled plus radians turned) from which a stretch may be meant: what
 an action needs at least (`smd.recognition.costs.Costs.action`); idle hands tremble below it."""
 
-LIKELY = 2.0
-"""An action that costs more than so many times what it may is not like the movement at all."""
-
 SHOWN_ACTIONS = 3
 """So many of the likeliest actions are kept."""
 
-MOST_WEIGHED, MOST_SUGGESTED = 48, 12
+MOST_WEIGHED, MOST_SUGGESTED = 32, 12
 """So many stretches a performer are weighed at most, those with most movement in them, and so many
 are kept, the likeliest. A stretch takes about 10 ms to weigh."""
 
@@ -135,7 +132,7 @@ def _candidates(
     named = [match for match in matches if match.action is not None]
     named.sort(key=lambda match: match.distance / match.most)
     for i, match in enumerate(named[:SHOWN_ACTIONS]):
-        if match.action is not None and match.distance <= LIKELY * match.most:
+        if match.action is not None and match.distance <= WORTH_NAMING * match.most:
             passes = i > 0 and match.distance <= match.most
             reason = OUTDONE if passes else reason_of(match, actions[match.action], measures)
             yield Candidate(match.action, match.distance, match.most, reason)

@@ -93,13 +93,32 @@ def test_convert_says_the_same_and_json_stays_json(run_smd, stories, tmp_path):
     assert json.loads(out)["performers"]
 
 
-def test_where_no_reading_helps_other_ways_on_are_named(run_smd, tmp_path):
-    take = tmp_path / "one_way.csv"
-    rows = "".join(f"{i / 60:.4f},{0.01 * i},1,0,0,0,0,1\n" for i in range(40))
-    rest = "".join(f"{i / 60:.4f},0.39,1,0,0,0,0,1\n" for i in range(40, 100))
-    take.write_text("time_s,x,y,z,qx,qy,qz,qw\n" + rows + rest, encoding="utf-8")
-    code, out, err = run_smd("parse", take, "--tolerance", "0.05")
+@pytest.fixture
+def one_way(tmp_path):
+    """A prop that goes to its left for a metre and rests."""
+    path = tmp_path / "one_way.csv"
+    at_m = [min(i, 120) / 120 for i in range(180)]
+    rows = "".join(f"{i / 60:.4f},{x:.4f},1,0,0,0,0,1\n" for i, x in enumerate(at_m))
+    path.write_text("time_s,x,y,z,qx,qy,qz,qw\n" + rows, encoding="utf-8")
+    return path
+
+
+def test_where_no_reading_helps_other_ways_on_are_named(run_smd, one_way):
+    code, out, err = run_smd("parse", one_way, "--tolerance", "0.05")
     assert (code, err) == (0, "")
     assert "nothing recognised" in out
     for word in ("smd rehearse", "smd teach", "--unexplained follow"):
         assert word in out
+
+
+def test_following_is_printed_as_implied_and_not_proposed_again(run_smd, one_way, tmp_path):
+    how = ["--tolerance", "0.05", "--unexplained", "follow"]
+    code, out, err = run_smd("parse", one_way, *how)
+    assert (code, err) == (0, "")
+    assert "0 phrases, 1 implied" in out
+    assert "--unexplained" not in out
+    (line,) = [line for line in out.splitlines() if line.endswith("implied")][1:]
+    assert "side_step_left" in line or "run" in line
+    code, out, err = run_smd("convert", one_way, "-o", tmp_path / "out.usdc", *how)
+    assert (code, err) == (0, "")
+    assert "1 implied" in out
