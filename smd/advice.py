@@ -32,9 +32,9 @@ UNDERSTOOD = 0.9
 """Share of the movement from which a recording counts as understood, and nothing is tried."""
 
 READABLE = 0.6
-"""Share of the movement that another reading has to explain to be told. The right one explains all of
-a story; free play and idle hands (A-Frame sessions dance and grabLeft, nine real recordings) give
-three phrases in no other reading."""
+"""Share of the movement that another reading has to explain to be told. The right one explains a
+story as a whole; free play and idle hands (A-Frame sessions dance and grabLeft, nine recordings)
+give three phrases in no other reading."""
 
 LEAST_PHRASES = 3
 """So many phrases another reading has to give: fewer may be chance."""
