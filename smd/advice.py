@@ -124,13 +124,7 @@ def better_reading(
     only
         The options that may differ; all if empty.
     """
-    devices = [part.device for part in score.performers]
-    doodles = [doodle for device in devices for doodle in recording.of(device)]
-    if not doodles or not any(_moves(doodle) for doodle in doodles):
-        return None
-    present = 0.0
-    if _size_fits(doodles, asked.figure_height_m):
-        present = understood_share(recording, score)
+    doodles, present = _performed(recording, score), _present_share(recording, score)
     if present >= UNDERSTOOD:
         return None
     sample, trials = [busiest(doodles)], Trials(library, asked)
@@ -147,6 +141,24 @@ def better_reading(
     if not whole.readable or 1.0 - whole.share > LEFT_OVER * (1.0 - present):
         return None
     return Reading(tuple(best.items()), whole.phrases, whole.share)
+
+
+def is_understood(recording: Recording, score: Score) -> bool:
+    """Tell whether there is nothing to advise: most is understood, or nothing moves."""
+    return _present_share(recording, score) >= UNDERSTOOD
+
+
+def _performed(recording: Recording, score: Score) -> list[Doodle]:
+    return [doodle for part in score.performers for doodle in recording.of(part.device)]
+
+
+def _present_share(recording: Recording, score: Score) -> float:
+    """Return the share of movement that is understood; nothing of what has a senseless size."""
+    doodles = _performed(recording, score)
+    if not any(_moves(doodle) for doodle in doodles):
+        return 1.0
+    fits = _size_fits(doodles, score.figure_height_m)
+    return understood_share(recording, score) if fits else 0.0
 
 
 def otherwise(doodles: Sequence[Doodle], asked: Asked) -> Iterator[dict[str, str]]:

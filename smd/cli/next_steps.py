@@ -44,9 +44,11 @@ def next_steps(
     only
         The options that the command has; all if empty.
     """
-    from smd.advice import Asked, better_reading, understood_share
+    from smd.advice import Asked, better_reading, is_understood, understood_share
     from smd.formats.reading import format_frame
 
+    if is_understood(recording, score):
+        return
     asked = Asked(dict(options.pairs), format_frame(file), score.figure_height_m, tolerance)
     better = better_reading(recording, score, cast, asked, only=only)
     if better is not None:
