@@ -44,7 +44,8 @@ from smd.errors import SmdError
 from smd.formats import SourceFrame, read_recording
 from smd.geometry.arrays import FloatArray
 from smd.pipeline import animate, parse
-from smd.score import Part, Score, read_score
+from smd.score import Part, Score
+from smd.score_file import read_score
 from smd.synthetic.efforts import SHAPING
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take

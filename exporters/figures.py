@@ -19,7 +19,8 @@ from exporters.performer import DEVICE_KEY
 from exporters.usd import PROPS, SCORE_KEY, START_KEY
 from smd.errors import ExportError
 from smd.geometry.arrays import FloatArray
-from smd.score import Score, score_from_json
+from smd.score import Score
+from smd.score_file import score_from_json
 
 _PLAIN_RGB: RGB = (0.20, 0.55, 0.53)
 

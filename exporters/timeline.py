@@ -1,7 +1,8 @@
 """What was understood of a recording, under the trajectory it was understood from.
 
 For each device, on one time axis: where the prop went and how fast, the tokens of its movement,
-the phrases of the Score, and their Effort; where tracking was lost is hatched.
+the phrases of the Score, and their Effort; where tracking was lost is hatched. What the Score
+suggests, and no phrase explains, is hollow; phrases that are implied are pale.
 """
 
 from __future__ import annotations
@@ -10,13 +11,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from exporters.palette import RGB, action_colors
+from exporters.palette import IDLE_RGB, RGB, action_colors
 from laban import AXES, EffortCurve, RigidMotion, effort_over_time, load_effort_model
 from smd.errors import DoodleError
 from smd.files import replacing
@@ -37,17 +38,25 @@ _SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62,
 _LETTER_INCHES = 0.066  # at 8 points, of most names
 _AXIS_COLORS = {"x": "#d6455d", "y": "#37a562", "z": "#3b6fd4"}
 _EFFORT_COLORS = {"time": "#475063", "weight": "#a5afbd", "space": "#7d6748", "flow": "#cdb88f"}
+_HALVES = {"": (0.08, 0.84), "upper": (0.53, 0.41), "lower": (0.06, 0.41)}
+"""Where in a lane a block stands: its bottom and height as shares of the lane."""
+
 _INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
 
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A span of time in a lane; the first of its texts that fits is written in it."""
+    """A span of time in a lane; the first of its texts that fits is written in it.
+
+    A hollow one is an outline in its colour; it has the height of the lane, or of a half.
+    """
 
     start_s: float
     end_s: float
     texts: tuple[str, ...]
     color: RGB
+    hollow: bool = False
+    half: Literal["", "upper", "lower"] = ""
 
 
 def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> None:
@@ -85,7 +94,9 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         _draw_trajectory(axes["trajectory"], [motion for _, motion in motions], part.device)
         _draw_blocks(axes["moves"], _token_blocks(strings, lambda token: token.translation, "T"))
         _draw_blocks(axes["turns"], _token_blocks(strings, lambda token: token.rotation, "R"))
-        _draw_blocks(axes["phrase"], _phrase_blocks(part, action_colors(score)))
+        _draw_blocks(
+            axes["phrase"], _phrase_blocks(part, action_colors(score)) + _suggestion_blocks(part)
+        )
         curves = [effort_over_time(motion, model) for _, motion in motions]
         _draw_effort(axes["effort"], part, curves)
         _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])
@@ -209,27 +220,57 @@ def _phrase_blocks(part: Part, colors: dict[str, RGB]) -> list[Block]:
     blocks = []
     for phrase in part.phrases:
         name = phrase.action
-        texts = f"{name} {round(100 * phrase.confidence)} %", name, name.replace("_", "\n")
-        blocks.append(Block(phrase.start_s, phrase.end_s, texts, colors[name]))
+        span = phrase.start_s, phrase.end_s
+        if phrase.implied:
+            blocks.append(Block(*span, (name,), _paler(colors[name]), half="lower"))
+        else:
+            texts = f"{name} {round(100 * phrase.confidence)} %", name, name.replace("_", "\n")
+            blocks.append(Block(*span, texts, colors[name]))
+    return blocks
+
+
+def _paler(color: RGB) -> RGB:
+    """Return a colour two thirds of the way to white."""
+    red, green, blue = ((2.0 + value) / 3.0 for value in color)
+    return red, green, blue
+
+
+def _suggestion_blocks(part: Part) -> list[Block]:
+    """Return what no phrase explains, hollow: what it is most like, with a question mark.
+
+    Above implied phrases, which may be where they are, they have the upper half.
+    """
+    shares = any(phrase.implied for phrase in part.phrases)
+    blocks = []
+    for suggestion in part.suggestions:
+        name, span = suggestion.action, (suggestion.start_s, suggestion.end_s)
+        if shares:
+            blocks.append(Block(*span, (f"{name}?", "?"), IDLE_RGB, hollow=True, half="upper"))
+        else:
+            texts = f"{name}?", name.replace("_", "\n") + "?", "?"
+            blocks.append(Block(*span, texts, IDLE_RGB, hollow=True))
     return blocks
 
 
 def _draw_blocks(axes: Any, blocks: Sequence[Block]) -> None:
     """Draw a lane of coloured blocks, each with a text where one fits."""
-    axes.broken_barh(
-        [(block.start_s, block.end_s - block.start_s) for block in blocks],
-        (0.08, 0.84),
-        facecolors=[block.color for block in blocks],
-        edgecolors="white",
-        linewidths=0.6,
-    )
+    for half, extent in _HALVES.items():
+        some = [block for block in blocks if block.half == half]
+        axes.broken_barh(
+            [(block.start_s, block.end_s - block.start_s) for block in some],
+            extent,
+            facecolors=["none" if block.hollow else block.color for block in some],
+            edgecolors=[block.color if block.hollow else "white" for block in some],
+            linewidths=[1.2 if block.hollow else 0.6 for block in some],
+        )
     for block in blocks:
+        bottom, height = _HALVES[block.half]
         text = _fitting(axes, block)
         if text:
-            bright = np.dot(block.color, (0.3, 0.59, 0.11)) > 0.58
+            bright = block.hollow or np.dot(block.color, (0.3, 0.59, 0.11)) > 0.58
             axes.text(
                 0.5 * (block.start_s + block.end_s),
-                0.47,
+                bottom + 0.47 * height,
                 text,
                 ha="center",
                 va="center",

@@ -32,7 +32,7 @@ from exporters.scenery import define_camera, define_ground, doodle_box
 from smd.errors import ExportError
 from smd.files import write_together
 from smd.geometry.arrays import FloatArray
-from smd.score import score_to_json
+from smd.score_file import score_to_json
 from smd.transfer.performance import Performance
 
 ROOT, PERFORMER = "Performance", "Performer"

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from smd.errors import SmdError
     from smd.formats import SourceFrame, read_recording, write_recording
     from smd.pipeline import animate, parse
-    from smd.score import Phrase, Score, read_score, write_score
+    from smd.score import Phrase, Score
+    from smd.score_file import read_score, write_score
     from smd.smoothing import smooth
     from smd.transfer.performance import Performance
 
@@ -40,11 +41,11 @@ _HOME = {
     "load_library": "actions_library.folder",
     "parse": "smd.pipeline",
     "read_recording": "smd.formats",
-    "read_score": "smd.score",
+    "read_score": "smd.score_file",
     "smooth": "smd.smoothing",
     "write": "exporters",
     "write_recording": "smd.formats",
-    "write_score": "smd.score",
+    "write_score": "smd.score_file",
 }
 """Where each public name is defined; it is imported when it is first asked for."""
 

@@ -17,12 +17,17 @@ if TYPE_CHECKING:
     from smd.doodle import Doodle, Recording
     from smd.recognition.recognizer import Span
     from smd.recognition.spotting import Recognizer
-    from smd.score import Phrase, Score
+    from smd.recognition.suggestions import Understood
+    from smd.score import Phrase, Score, Suggestion
     from smd.transfer.performance import Performance
     from smd.transfer.terrain import Terrain
 
 HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
 """Names of devices that are worn, not played with."""
+
+
+UNEXPLAINED = ("leave", "follow")
+"""What is made of travel in which nothing is recognised."""
 
 
 def parse(
@@ -32,6 +37,8 @@ def parse(
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
     devices: Collection[str] | None = None,
     tolerance: float = 1.0,
+    intent: str | None = None,
+    unexplained: str = "leave",
 ) -> Score:
     """Recognise the actions in a recording and read the Effort of each.
 
@@ -48,41 +55,76 @@ def parse(
     tolerance
         How unlike an action's examples a gesture may be, positive: below 1 more is rejected,
         above it less (docs/verification.md has the trade-off).
+    intent
+        Whether movement was meant: "drawn", where a trigger was held, or "free", where nothing
+        says so. By default a doodle that says when the user drew was drawn, and any other is free.
+    unexplained
+        What to make of travel in which nothing is recognised: "leave" it, or "follow" it, with
+        phrases in the gait that suits, marked as implied; clips of gaits are then read.
 
     Returns
     -------
     Score
-        A part for each device, in the recording's order; a part may be empty.
+        A part for each device, in the recording's order; a part may be empty. What no phrase
+        explains, and is like an action, is among its suggestions.
 
     Raises
     ------
     ScoreError
-        If the figure height is not positive, or a device is not in the recording.
+        If the figure height is not positive, ``intent`` or ``unexplained`` is neither, or a device
+        is not in the recording.
     LibraryError
         If a cast has a library for a device that is not in the recording.
     """
     from actions_library.cast import cast_of
     from laban import load_effort_model
+    from smd.following import going_along
+    from smd.recognition.acceptance import Intent
     from smd.recognition.spotting import Recognizer
-    from smd.score import Part, Score
+    from smd.score import INTENTS, Part, Score
 
+    if unexplained not in UNEXPLAINED:
+        raise ScoreError(f"unexplained: expected {' or '.join(UNEXPLAINED)}, got {unexplained!r}")
+    if intent not in (None, *INTENTS):
+        raise ScoreError(f"intent: expected {' or '.join(INTENTS)}, got {intent!r}")
     empty = Score((), recording.source, figure_height_m=figure_height_m)
     cast = cast_of(library)
     cast.check(recording.devices)
     recognizers: dict[Library, Recognizer] = {}
     model = load_effort_model()
-    parts, warnings = [], []
+    parts, warnings = [], list(_without_examples(cast))
     for device in _performing(recording, devices):
         own = cast.of(device)
         if own not in recognizers:
-            recognizers[own] = Recognizer(own, figure_height_m=figure_height_m, tolerance=tolerance)
-        played: list[tuple[Span, RigidMotion]] = []
+            recognizers[own] = Recognizer(
+                own,
+                figure_height_m=figure_height_m,
+                tolerance=tolerance,
+                intent=intent and Intent(intent),
+            )
+        understood: list[Understood] = []
         for doodle in recording.of(device):
             try:
-                played.extend(_played(doodle, recognizers[own]))
+                understood.append(_understood(doodle, recognizers[own]))
             except DoodleError as error:
                 warnings.append(f"left out: {error}")
-        parts.append(Part(device, tuple(_phrases(played, model))))
+        played = [
+            (span, one.motion.between(span.start_s, span.end_s))
+            for one in understood
+            for span in one.spans
+        ]
+        phrases = tuple(_phrases(played, model))
+        if unexplained == "follow":
+            phrases = going_along(
+                phrases,
+                [one.motion for one in understood],
+                own,
+                figure_height_m=figure_height_m,
+            )
+        suggested = tuple(_suggestions(understood, recognizers[own], own, figure_height_m))
+        meant = Intent.DRAWN in [one.intent for one in understood]
+        said = str(Intent.DRAWN if meant else Intent.FREE)
+        parts.append(Part(device, phrases, intent=said, suggestions=suggested))
         warnings.extend(_lost_tracking(recording, device))
     if not devices:
         warnings.extend(_never_tracked(recording))
@@ -104,13 +146,45 @@ def _performing(recording: Recording, devices: Collection[str] | None) -> tuple[
     return played or known
 
 
-def _played(doodle: Doodle, recognizer: Recognizer) -> Iterator[tuple[Span, RigidMotion]]:
-    """Yield the actions of one doodle, and how each was drawn."""
+def _understood(doodle: Doodle, recognizer: Recognizer) -> Understood:
+    """Return one doodle's motion, tokens and actions."""
+    from smd.recognition.suggestions import Understood
     from smd.smoothing import smooth
 
     motion = smooth(doodle)
-    for span in recognizer.spot_runs(motion, recognizer.runs_of(doodle, motion)):
-        yield span, motion.between(span.start_s, span.end_s)
+    runs = recognizer.runs_of(doodle, motion)
+    intent = recognizer.intent_of(doodle)
+    return Understood(motion, runs, recognizer.spot_runs(motion, runs, intent), intent)
+
+
+def _suggestions(
+    understood: Sequence[Understood],
+    recognizer: Recognizer,
+    library: Library,
+    figure_height_m: float,
+) -> Iterator[Suggestion]:
+    """Yield what a performer did that nothing explains; times to the millisecond, as phrases'."""
+    from smd.recognition.suggestions import suggestions
+    from smd.score import Alternative, Suggestion
+
+    for one in suggestions(
+        recognizer, library.actions, understood, figure_height_m=figure_height_m
+    ):
+        yield Suggestion(
+            round(one.start_s, 3),
+            round(one.end_s, 3),
+            tuple(Alternative(c.action, c.cost, c.most, c.reason) for c in one.likeliest),
+        )
+
+
+def _without_examples(cast: Cast) -> Iterator[str]:
+    """Yield a line where a library can only be recognised the old way, by tokens alone."""
+    libraries = (cast.shared, *cast.own.values())
+    if any(not any(action.exemplar for action in library.actions) for library in libraries):
+        yield (
+            "library: no action has examples, so gestures are told by their tokens alone; "
+            "smd teach and smd learn add some"
+        )
 
 
 def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> Iterator[Phrase]:

@@ -19,6 +19,7 @@ from smd.formats.dropouts import LONGEST_BRIDGE_S
 from smd.formats.frame import Mount
 from smd.geometry.rotations import multiply, rotate
 from smd.recognition import Recognizer
+from smd.recognition.acceptance import Intent
 from smd.recognition.recognizer import Span
 
 MOST_WINDOWS = 256
@@ -80,7 +81,8 @@ class LiveRecognition:
             follower = self._followers.get(serial)
             if follower is None or time_s - follower.last_s > LONGEST_BRIDGE_S:
                 decided += follower.finish() if follower else []
-                follower = _Follower(self._names[serial], self._recognizer, self._model)
+                intent = Intent.FREE if drawing is None else Intent.DRAWN
+                follower = _Follower(self._names[serial], self._recognizer, intent, self._model)
                 self._followers[serial] = follower
             with suppress(DoodleError):  # a bad sample is in the recording; here it is passed over
                 decided += follower.push(time_s, *self._of_prop(pose[:3], pose[3:]), drawing)
@@ -110,10 +112,12 @@ class _Follower:
     Effort is read one sample after the stream has looked, so that a phrase does not wait for it.
     """
 
-    def __init__(self, device: str, recognizer: Recognizer, model: EffortModel) -> None:
+    def __init__(
+        self, device: str, recognizer: Recognizer, intent: Intent, model: EffortModel
+    ) -> None:
         self._device = device
         self._unread: list[RigidMotion] = []
-        self._spans = recognizer.stream(self._unread.append)
+        self._spans = recognizer.stream(self._unread.append, intent=recognizer.intent or intent)
         self._efforts = EffortStream(model)
         self._windows: deque[tuple[float, Effort]] = deque(maxlen=MOST_WINDOWS)
         self.last_s = -np.inf

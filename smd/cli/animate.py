@@ -37,7 +37,7 @@ def animate(
     """
     import smd
     from smd.errors import ScoreError
-    from smd.score import read_score
+    from smd.score_file import read_score
     from smd.transfer.terrain import read_terrain
 
     written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)

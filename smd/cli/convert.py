@@ -9,6 +9,7 @@ import typer
 
 from smd.cli import reading, writing
 from smd.cli.batch import for_each, targets
+from smd.cli.next_steps import next_steps
 
 if TYPE_CHECKING:
     from smd.transfer.performance import Performance
@@ -26,6 +27,8 @@ def convert(
     library: reading.Libraries = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
+    intent: reading.Intent = None,
+    unexplained: reading.Unexplained = reading.UnexplainedName.LEAVE,
     fps: reading.FramesPerSecond = 24.0,
     expressiveness: reading.Expressiveness = 1.0,
     heading: reading.Heading = reading.HeadingName.PROP,
@@ -60,7 +63,14 @@ def convert(
     folders = reading.LibraryFolders.from_options(library)
     cast = folders.load()
     understood = reading.understanding(
-        options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
+        options,
+        cast,
+        folders,
+        figure_height_m=figure_height,
+        devices=device,
+        tolerance=tolerance,
+        intent=intent,
+        unexplained=unexplained,
     )
     terrain = None if ground is None else read_terrain(ground)
 
@@ -81,5 +91,7 @@ def convert(
         performance = written.write(score, act, expressiveness, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
+        for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
+            typer.echo(f"  {line}")
 
     for_each(files, one)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from smd.recognition import Recognizer
+from smd.recognition.acceptance import Intent
 
 if TYPE_CHECKING:
     from actions_library.cast import Cast
@@ -20,12 +21,35 @@ SHOWN_OTHERS = 2
 def explanation(score: Score, recording: Recording, cast: Cast) -> Iterator[str]:
     """Yield lines on each phrase: its terms, what would have rejected it, and what came next.
 
-    A phrase is weighed again by itself: terms may differ a little from those in the flow.
+    A phrase is weighed again by itself: terms may differ a little from those in the flow. Then
+    come the suggestions, with each action that was likely and what kept it out.
     """
     for part in score.performers:
-        recognizer = Recognizer(cast.of(part.device), figure_height_m=score.figure_height_m)
+        phrases = [phrase for phrase in part.phrases if not phrase.implied]
+        if not phrases and not part.suggestions:
+            yield f"  {part.device}: nothing in it is like an action of the library"
+        yield from _phrases(phrases, part, score, recording, cast)
+        if part.suggestions:
+            yield f"  {part.device}: what was left unexplained; 1.00 is what an action may cost"
+        for suggestion in part.suggestions:
+            yield f"    {suggestion.start_s:8.2f} – {suggestion.end_s:7.2f} s"
+            for one in suggestion.likeliest:
+                share = "" if one.most is None else f"{one.distance / one.most:5.2f}"
+                yield f"              {one.action:16}  {share:>5}  {one.reason}".rstrip()
+
+
+def _phrases(
+    phrases: Sequence[Phrase], part: Part, score: Score, recording: Recording, cast: Cast
+) -> Iterator[str]:
+    """Yield lines on what phrases were weighed by, where there are any."""
+    if phrases:
+        recognizer = Recognizer(
+            cast.of(part.device),
+            figure_height_m=score.figure_height_m,
+            intent=Intent(part.intent) if part.intent else None,
+        )
         yield f"  {part.device}: what each phrase was weighed by, small is alike"
-        for phrase in part.phrases:
+        for phrase in phrases:
             whole = next(
                 doodle
                 for doodle in recording.of(part.device)

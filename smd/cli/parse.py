@@ -10,10 +10,11 @@ import typer
 
 from smd.cli import reading
 from smd.cli.batch import for_each, targets
+from smd.cli.next_steps import next_steps
 
 if TYPE_CHECKING:
     from laban import Effort
-    from smd.score import Score
+    from smd.score import Score, Suggestion
 
 
 def parse(
@@ -31,6 +32,8 @@ def parse(
     library: reading.Libraries = None,
     figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
     tolerance: reading.Tolerance = 1.0,
+    intent: reading.Intent = None,
+    unexplained: reading.Unexplained = reading.UnexplainedName.LEAVE,
     device: reading.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
@@ -43,7 +46,7 @@ def parse(
 
     They are printed, or written as a Score that can be corrected by hand.
     """
-    from smd.score import score_to_json, write_score
+    from smd.score_file import score_to_json, write_score
 
     files = list(reading.recording_files(recordings))
     outputs = targets(recordings, files, output, reading.SCORE_SUFFIX) if output else []
@@ -51,7 +54,14 @@ def parse(
     folders = reading.LibraryFolders.from_options(library)
     cast = folders.load()
     understood = reading.understanding(
-        options, cast, folders, figure_height_m=figure_height, devices=device, tolerance=tolerance
+        options,
+        cast,
+        folders,
+        figure_height_m=figure_height,
+        devices=device,
+        tolerance=tolerance,
+        intent=intent,
+        unexplained=unexplained,
     )
     scores: list[Score] = []
 
@@ -67,6 +77,10 @@ def parse(
                 from smd.cli.explain import explanation
 
                 typer.echo("\n".join(explanation(score, recording, cast)))
+            for line in next_steps(
+                file, recording, score, cast, options=options, tolerance=tolerance
+            ):
+                typer.echo(f"  {line}")
             if outputs:
                 typer.echo(f"written: {outputs[index]}")
 
@@ -80,16 +94,25 @@ def parse(
 
 
 def table(score: Score, *, others: int = 0) -> list[str]:
-    """Return a Score as lines of a table, one phrase a line, with so many alternatives to each."""
+    """Return a Score as lines of a table, one phrase a line, with so many alternatives to each.
+
+    Suggestions follow a performer's phrases, a line each as well.
+    """
     lines = []
     for part in score.performers:
-        lines.append(f"  {part.device}" + ("" if part.phrases else ": nothing recognised"))
+        recognised = not all(phrase.implied for phrase in part.phrases)
+        lines.append(f"  {part.device}" + ("" if recognised else ": nothing recognised"))
         for phrase in part.phrases:
+            if phrase.implied:
+                times = f"{phrase.start_s:8.2f} – {phrase.end_s:7.2f} s"
+                lines.append(f"    {times}  {phrase.action:<16} implied")
+                continue
             line = row(
                 phrase.start_s, phrase.end_s, phrase.action, phrase.confidence, phrase.effort
             )
             names = ", ".join(other.action for other in phrase.alternatives[:others])
             lines.append(f"    {line}" + (f"  or {names}" if names else ""))
+        lines.extend(f"    {suggested(suggestion)}" for suggestion in part.suggestions)
     lines.extend(f"  {line}" for line in score.warnings)
     return lines
 
@@ -104,3 +127,12 @@ def row(start_s: float, end_s: float, action: str, confidence: float, effort: Ef
     return (
         f"{start_s:8.2f} – {end_s:7.2f} s  {action:<16} confidence {confidence:.2f}  {efforts}"
     ).rstrip()
+
+
+def suggested(suggestion: Suggestion) -> str:
+    """Return what was not recognised as a line: what it is most like, and what kept that out."""
+    best, *others = suggestion.likeliest
+    line = f"{suggestion.start_s:8.2f} – {suggestion.end_s:7.2f} s  {best.action + '?':<16} "
+    line += best.reason or "not recognised"
+    names = ", ".join(other.action for other in others)
+    return line + (f"; or {names}" if names else "")

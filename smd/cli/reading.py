@@ -71,6 +71,38 @@ Tolerance = Annotated[
         max=20.0,
     ),
 ]
+
+
+class IntentName(StrEnum):
+    """Whether movement was meant."""
+
+    DRAWN = "drawn"
+    FREE = "free"
+
+
+Intent = Annotated[
+    IntentName | None,
+    typer.Option(
+        help="Whether movement was meant: drawn, where a trigger was held, or free, where most is "
+        "not. Default: drawn where the recording says when the user drew."
+    ),
+]
+
+
+class UnexplainedName(StrEnum):
+    """What is made of travel in which nothing is recognised."""
+
+    LEAVE = "leave"
+    FOLLOW = "follow"
+
+
+Unexplained = Annotated[
+    UnexplainedName,
+    typer.Option(
+        help="Where nothing is recognised and the prop travels: leave the character standing, or "
+        "let it follow in the gait that suits."
+    ),
+]
 Expressiveness = Annotated[
     float,
     typer.Option(
@@ -203,6 +235,8 @@ def understanding(
     figure_height_m: float,
     devices: list[str] | None,
     tolerance: float,
+    intent: str | None = None,
+    unexplained: str = UnexplainedName.LEAVE,
 ) -> Callable[[Path], tuple[Recording, Score]]:
     """Return what reads a recording and its Score; the Score keeps how it was read."""
 
@@ -216,6 +250,8 @@ def understanding(
             figure_height_m=figure_height_m,
             devices=devices,
             tolerance=tolerance,
+            intent=intent,
+            unexplained=unexplained,
         )
         return recording, folders.named_in(replace(score, reading=options.pairs))
 
@@ -292,7 +328,10 @@ def summary(recording: Recording, score: Score) -> str:
     end_s = max(doodle.time_s[-1] for doodle in recording.doodles)
     devices = ", ".join(part.device for part in score.performers)
     parts = [f"{end_s - start_s:.1f} s, {devices}"]
-    parts.append(count(sum(len(part.phrases) for part in score.performers), "phrase"))
+    implied = [phrase.implied for part in score.performers for phrase in part.phrases]
+    parts.append(count(implied.count(False), "phrase"))
+    if any(implied):
+        parts.append(f"{implied.count(True)} implied")
     if recording.dropouts:
         split = sum(not dropout.bridged for dropout in recording.dropouts)
         parts.append(f"{count(len(recording.dropouts), 'dropout')} ({split} over 0.25 s)")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from smd.cli import reading
+from smd.cli.next_steps import LIVE, next_steps
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -112,11 +113,12 @@ class Understander:
     def _act_out(self, take: Path, devices: list[str]) -> None:
         import smd
         from smd.cli.parse import table
-        from smd.score import write_score
+        from smd.score_file import write_score
 
         how = self._how
+        options = reading.ReadingOptions(mount=None if how.mount is None else str(how.mount))
         understood = reading.understanding(
-            reading.ReadingOptions(mount=None if how.mount is None else str(how.mount)),
+            options,
             self._library,
             reading.LibraryFolders(how.folder),
             figure_height_m=how.figure_height_m,
@@ -129,6 +131,16 @@ class Understander:
         _say(f"{take.with_suffix(how.suffix)}: {reading.summary(recording, score)}")
         for line in table(score, others=SHOWN_OTHERS):
             _say(line)
+        for line in next_steps(
+            take.with_suffix(".csv"),
+            recording,
+            score,
+            smd.Cast(self._library),
+            options=options,
+            tolerance=how.tolerance,
+            only=LIVE,
+        ):
+            _say(f"  {line}")
         if how.picture:
             from exporters.timeline import write_timeline
 

@@ -292,3 +292,18 @@ class Conversion:
             tracker_m + rotate(world_from_tracker, self.mount.lever_m),
             multiply(world_from_tracker, self.mount.tracker_from_prop_xyzw),
         )
+
+    def numbers(
+        self, position_m: FloatArray, orientation_xyzw: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the source's numbers of poses: what `poses` makes these of."""
+        world_from_tracker = multiply(orientation_xyzw, inverse(self.mount.tracker_from_prop_xyzw))
+        tracker_m = position_m - rotate(world_from_tracker, self.mount.lever_m)
+        mirrored_from_world = inverse(self.world_from_mirrored_xyzw)
+        position = rotate(mirrored_from_world, tracker_m) * self.mirror / self.metres_per_unit
+        q = multiply(
+            multiply(mirrored_from_world, world_from_tracker),
+            inverse(self.mirrored_device_from_tracker_xyzw),
+        )
+        q = q * np.append(np.prod(self.mirror) * self.mirror, 1.0)
+        return position, np.roll(q, 1, axis=1) if self.order == "wxyz" else q

@@ -70,13 +70,7 @@ def read_recording(
         expected and what was found.
     """
     name = str(path)
-    path = Path(path)
-    require_file(path, name)
-    if path.suffix.lower() not in READABLE:
-        suffix = repr(path.suffix) if path.suffix else "no suffix"
-        raise fault(name, "", f"a file with suffix {' '.join(READABLE)}", suffix)
-    in_binary = BINARY.get(path.suffix.lower())
-    content = in_binary(path, name) if in_binary else _content(read_text(path, name), name)
+    content = _opened(Path(path), name)
     asked = frame or SourceFrame()
     if content.order_is_given and asked.quaternion not in (None, content.frame.quaternion):
         raise fault(
@@ -99,6 +93,27 @@ def read_recording(
     if not doodles:
         raise _never_tracked(name, chosen[0], valid[0])
     return Recording(tuple(doodles), name, tuple(dropouts), metadata)
+
+
+def format_frame(path: str | Path) -> SourceFrame:
+    """Return what a recording file's format says of its numbers, every question answered.
+
+    Raises
+    ------
+    RecordingError
+        As `read_recording`.
+    """
+    return _opened(Path(path), str(path)).frame
+
+
+def _opened(path: Path, name: str) -> Content:
+    """Return what is in a file, in its own numbers."""
+    require_file(path, name)
+    if path.suffix.lower() not in READABLE:
+        suffix = repr(path.suffix) if path.suffix else "no suffix"
+        raise fault(name, "", f"a file with suffix {' '.join(READABLE)}", suffix)
+    in_binary = BINARY.get(path.suffix.lower())
+    return in_binary(path, name) if in_binary else _content(read_text(path, name), name)
 
 
 def _never_tracked(name: str, track: Track, valid: BoolArray) -> RecordingError:

@@ -178,7 +178,8 @@ class Recognizer:
     def rank(self, doodle: Doodle) -> list[Match]:
         """Weigh every action, and none, for a doodle that holds one gesture, the best first.
 
-        Rest before and after the gesture is no part of it. A doodle that never moves is none.
+        Rest before and after the gesture is no part of it. A doodle that never moves is none. That
+        it holds a gesture says that it was meant, unless the recognizer's intent is another.
 
         Raises
         ------
@@ -191,7 +192,38 @@ class Recognizer:
         if not moving or not self.names:
             return [Match(None, 0.0, 1.0)]
         whole = (moving[0], moving[-1] + 1)
-        return self._matches(motion, runs, [whole], np.inf, Intent.DRAWN)[0]
+        return self._matches(motion, runs, [whole], np.inf, self.intent or Intent.DRAWN)[0]
+
+    def weigh(
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        spans_s: Sequence[tuple[float, float]],
+        intent: Intent | None = None,
+    ) -> list[list[Match]]:
+        """Weigh every action, and none, for stretches of a motion; for each the best first.
+
+        Parameters
+        ----------
+        motion, runs
+            Of one doodle.
+        intent
+            Whether the movement is meant; by default the recognizer's own, or free.
+        spans_s
+            When each stretch begins and ends; it is weighed from the start of the run that is
+            there to the end of the one that is. What costs more than `WORTH_NAMING` times what it
+            may is not weighed to the end, and infinite.
+        """
+        starts_s = np.array([run.start_s for run in runs])
+        stretches = []
+        for start_s, end_s in spans_s:
+            first = max(int(np.searchsorted(starts_s, start_s + 1e-6, side="right")) - 1, 0)
+            last = max(int(np.searchsorted(starts_s, end_s - 1e-6)), first + 1)
+            stretches.append((first, last))
+        if not stretches or not self.names:
+            return [[Match(None, 0.0, 1.0)] for _ in stretches]
+        intent = intent or self.intent or Intent.FREE
+        return self._matches(motion, runs, stretches, WORTH_NAMING, intent)
 
     def spot(self, doodle: Doodle) -> list[Span]:
         """Find the actions in a doodle, in time order.
@@ -212,7 +244,8 @@ class Recognizer:
     ) -> RecognitionStream:
         """Return what finds the actions while a doodle is being drawn, sample by sample.
 
-        The listener is called with each piece of smoothed motion.
+        The listener is called with each piece of smoothed motion. Whether the movement is meant is
+        said once; by default it is the recognizer's own intent, or free.
         """
         return RecognitionStream(
             _Remembering(self, intent), figure_height_m=self._figure_height_m, listener=listener

@@ -146,7 +146,7 @@ class Verification:
         terms = np.full((len(action), len(TERMS)), np.inf)
         terms[:, 0] = WEIGHTS[0] * wrong
         deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
-        terms[:, _MEASURES] = WEIGHTS[_MEASURES] * _oddness(deviation)
+        terms[:, _MEASURES] = WEIGHTS[_MEASURES] * oddness(deviation)
         known = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
         floor = np.zeros((len(action), len(COURSES)))  # what courses cost that are not warped yet
         left = np.flatnonzero(known <= most)
@@ -175,9 +175,9 @@ class Verification:
     def measured(self, measures: FloatArray) -> FloatArray:
         """Return ``(g, a)``, what the measures ``(g, 4)`` of g gestures alone cost, as actions."""
         deviation = (measures[:, None] - self.centre) / self.spread
-        return np.asarray(_oddness(deviation) @ WEIGHTS[_MEASURES])
+        return np.asarray(oddness(deviation) @ WEIGHTS[_MEASURES])
 
 
-def _oddness(deviation: FloatArray) -> FloatArray:
+def oddness(deviation: FloatArray) -> FloatArray:
     """Return the negative logarithm of Student's density, 0 at its peak."""
     return 0.5 * (_FREEDOM + 1.0) * np.log1p(np.square(deviation) / _FREEDOM)

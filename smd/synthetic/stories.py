@@ -17,7 +17,8 @@ import numpy as np
 from smd.doodle import Doodle, Recording
 from smd.errors import SmdError
 from smd.formats import write_recording
-from smd.score import Part, Score, write_score
+from smd.score import Part, Score
+from smd.score_file import write_score
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take
 

@@ -7,12 +7,12 @@ import pytest
 from PIL import Image
 
 from exporters import timeline
-from exporters.palette import action_colors
+from exporters.palette import IDLE_RGB, action_colors
 from exporters.timeline import write_timeline
 from smd.doodle import Doodle, Dropout, Recording
 from smd.errors import ExportError
 from smd.recognition.tokens import Token, TokenRun
-from smd.score import Part, Score
+from smd.score import Alternative, Part, Score, Suggestion
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +43,35 @@ def test_a_phrase_stands_over_its_time_in_its_colour(picture, performance):
         columns = columns[rows < picture.shape[0] / 2]
         assert seconds(columns.min(), picture) == pytest.approx(start_s, abs=0.01)
         assert seconds(columns.max() + 1, picture) == pytest.approx(end_s, abs=0.01)
+
+
+def test_what_is_suggested_is_an_outline_over_its_time(recording, performance, picture, tmp_path):
+    walk = Alternative("walk", 12.0, 10.0, "too slow")
+    first, *others = performance.score.performers
+    suggesting = replace(first, suggestions=(Suggestion(11.3, 11.7, (walk,)),), phrases=())
+    score = replace(performance.score, performers=(suggesting, *others))
+    write_timeline(recording, score, tmp_path / "t.png")
+    drawn = np.asarray(Image.open(tmp_path / "t.png").convert("RGB")).astype(int)
+    rgb = np.round(255 * np.array(IDLE_RGB))
+    upper = slice(0, picture.shape[0] // 2)
+    outline = np.abs(drawn[upper] - rgb).max(axis=-1) <= 1
+    rows, columns = np.nonzero(outline)
+    sides = [columns.min(), columns.max()]
+    assert [seconds(side + 0.5, picture) for side in sides] == pytest.approx([11.3, 11.7], abs=0.02)
+    inside = drawn[rows.min() + 4 : rows.max() - 3, columns.min() + 4 : columns.max() - 3]
+    assert (inside.min(axis=-1) >= 250).mean() > 0.5  # paper, but for the name
+
+
+def test_an_implied_phrase_is_paler(performance):
+    (walk, *_), colors = performance.score.performers[0].phrases, action_colors(performance.score)
+    implied = Part("a", (replace(walk, implied=True),))
+    (meant,) = timeline._phrase_blocks(Part("a", (walk,)), colors)
+    (block,) = timeline._phrase_blocks(implied, colors)
+    assert all(ours > theirs for ours, theirs in zip(block.color, meant.color, strict=True))
+    assert (block.texts, block.half) == (("walk",), "lower")
+    wave = Suggestion(10.3, 10.6, (Alternative("wave", 2.0),))
+    (above,) = timeline._suggestion_blocks(replace(implied, suggestions=(wave,)))
+    assert above.half == "upper"
 
 
 def test_a_dropout_is_marked_over_its_time_in_its_device_alone(

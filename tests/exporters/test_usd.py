@@ -17,7 +17,7 @@ from smd.character.skinning import skin_points
 from smd.errors import ExportError
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import rotate
-from smd.score import score_from_json
+from smd.score_file import score_from_json
 from tests.exporters.skinned import skinned
 
 SUFFIXES = (".usda", ".usdc", ".usdz")

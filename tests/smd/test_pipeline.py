@@ -96,3 +96,34 @@ def test_a_doodle_too_short_to_smooth_is_left_out_with_a_warning():
     score = smd.parse(replace(recording, doodles=(whole, glimpse)), smd.load_library())
     assert len(score.performers[0].phrases) == 7
     assert any("left out" in line for line in score.warnings)
+
+
+def test_what_is_not_recognised_is_suggested_outside_of_phrases():
+    recording = smd.read_recording(RECORDINGS / "postman.csv")
+    library = smd.load_library()
+    whole = smd.parse(recording, library)
+    assert whole.suggestions == ()
+    few = smd.parse(recording, library, tolerance=0.45)
+    (part,) = few.performers
+    assert 0 < len(part.phrases) < 7
+    known = {phrase.action for phrase in part.phrases}
+    missing = [phrase for phrase in whole.performers[0].phrases if phrase.action not in known]
+    for phrase in missing:
+        (one,) = [s for s in part.suggestions if abs(s.start_s - phrase.start_s) < 0.2]
+        assert one.action == phrase.action
+        assert one.likeliest[0].distance > one.likeliest[0].most
+    assert smd.animate(few, recording, library).score.suggestions == few.suggestions
+
+
+def test_a_library_without_examples_is_said_to_be_one():
+    recording = smd.read_recording(RECORDINGS / "postman.csv")
+    library = smd.load_library()
+    plain = replace(
+        library,
+        actions=tuple(replace(action, exemplar=None) for action in library.actions),
+        exemplar_files={},
+    )
+    score = smd.parse(recording, plain)
+    assert score.performers[0].phrases
+    assert any("no action has examples" in line for line in score.warnings)
+    assert not any("examples" in line for line in smd.parse(recording, library).warnings)

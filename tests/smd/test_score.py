@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,41 +10,41 @@ from hypothesis import strategies as st
 
 from laban import AXES, Effort
 from smd.errors import ExportError, ScoreError
-from smd.score import (
-    Alternative,
-    Part,
-    Phrase,
-    Score,
-    read_score,
-    score_from_json,
-    score_to_json,
-    write_score,
-)
+from smd.score import INTENTS, Alternative, Part, Phrase, Score, Suggestion
+from smd.score_file import read_score, score_from_json, score_to_json, write_score
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "scores"
 
 thousandths = st.integers(-1000, 1000).map(lambda i: i / 1000)
 names = st.text(min_size=1, max_size=12).filter(str.strip)
 efforts = st.builds(Effort, **{axis: st.none() | thousandths for axis in AXES})
-alternatives = st.builds(Alternative, names, st.integers(0, 99_000).map(lambda i: i / 1000))
+costs = st.integers(0, 99_000).map(lambda i: i / 1000)
+alternatives = st.builds(Alternative, names, costs, st.none() | costs, st.text(max_size=12))
 
 
 @st.composite
 def parts(draw: st.DrawFn, device: str) -> Part:
     cuts = draw(st.lists(st.integers(-5_000, 3_600_000), unique=True, max_size=8))
     cuts.sort()
-    phrases = [
-        Phrase(
+    phrases, suggestions = [], []
+    for start, end in zip(cuts[::2], cuts[1::2], strict=False):
+        others = tuple(draw(st.lists(alternatives, max_size=3)))
+        if others and draw(st.booleans()):
+            # The first of them is named in the file, and read back as the first of its name.
+            suggestions.append(Suggestion(start / 1000, end / 1000, others))
+            continue
+        phrase = Phrase(
             draw(names),
             start / 1000,
             end / 1000,
             draw(efforts),
             draw(st.integers(0, 1000)) / 1000,
-            tuple(draw(st.lists(alternatives, max_size=3))),
+            others,
+            draw(st.booleans()),
         )
-        for start, end in zip(cuts[::2], cuts[1::2], strict=False)
-    ]
-    return Part(device, tuple(phrases))
+        phrases.append(phrase)
+    intent = draw(st.sampled_from(("", *INTENTS)))
+    return Part(device, tuple(phrases), draw(st.text(max_size=5)), intent, tuple(suggestions))
 
 
 @st.composite
@@ -79,19 +80,121 @@ def test_any_other_json_is_refused_in_one_line(value):
     assert "\n" not in str(caught.value)
 
 
+WALK = Phrase("walk", 0.5, 2.25, Effort(time=-0.5, weight=0.25), 0.875)
+PUNCH = Phrase("punch", 2.25, 3.0, Effort(), 0.5, (Alternative("throw", 1.5),))
+GOES_ALONG = Phrase("walk", 3.0, 6.0, confidence=0.0, implied=True)
+WAVES = Suggestion(3.5, 5.25, (Alternative("wave", 12.5, 10.25, "too slow"),))
+
+
+def told(*performers: Part) -> Score:
+    return Score(performers, "take.csv", reading=(("up", "z"),))
+
+
 def story() -> Score:
-    walk = Phrase("walk", 0.5, 2.25, Effort(time=-0.5, weight=0.25), 0.875)
-    punch = Phrase("punch", 2.25, 3.0, Effort(), 0.5, (Alternative("throw", 1.5),))
-    return Score((Part("fox", (walk, punch)), Part("wolf")), "take.csv", reading=(("up", "z"),))
+    fox = Part("fox", (WALK, PUNCH, GOES_ALONG), intent="free", suggestions=(WAVES,))
+    return told(fox, Part("wolf"))
 
 
 def test_a_golden_score_of_version_1_still_reads():
-    assert read_score(GOLDEN / "version_1.score.json") == story()
+    read = read_score(GOLDEN / "version_1.score.json")
+    assert read == told(Part("fox", (WALK, PUNCH)), Part("wolf"))
+
+
+def test_a_golden_score_of_version_2_reads():
+    assert read_score(GOLDEN / "version_2.score.json") == story()
 
 
 def test_a_score_is_written_as_the_golden_one():
-    golden = (GOLDEN / "version_1.score.json").read_text(encoding="utf-8")
+    golden = (GOLDEN / "version_2.score.json").read_text(encoding="utf-8")
     assert score_to_json(story()) == golden
+
+
+def moved_over(text: str, *, leave: bool = False) -> str:
+    """Return a Score's text with the line of its suggestion among its phrases, the last one."""
+    lines = text.splitlines()
+    at = next(i for i, line in enumerate(lines) if '"suggestions"' in line) + 1
+    line = lines[at]
+    assert '"wave"' in line
+    if not leave:
+        del lines[at]
+    lines[at - 2] += ","
+    return "\n".join([*lines[: at - 1], line, *lines[at - 1 :]])
+
+
+def test_a_suggestion_is_a_phrase_once_its_line_is_moved_and_what_is_implied_gives_way():
+    fox, _ = score_from_json(moved_over(score_to_json(story()))).performers
+    before, after = replace(GOES_ALONG, end_s=3.5), replace(GOES_ALONG, start_s=5.25)
+    assert fox.phrases == (WALK, PUNCH, before, WAVES.accepted(), after)
+    assert fox.suggestions == ()
+
+
+def test_a_suggestion_that_was_copied_and_not_moved_is_refused():
+    with pytest.raises(ScoreError) as caught:
+        score_from_json(moved_over(score_to_json(story()), leave=True), "take.json")
+    assert str(caught.value) == (
+        "take.json: performers[0].suggestions[0]: expected movement that no phrase explains: move "
+        'a suggestion over, do not copy it, found 3.5 to 5.25 s, which is in the phrase "wave" '
+        "at 3.5 s"
+    )
+
+
+def test_a_suggestion_that_was_accepted_twice_is_refused():
+    once = moved_over(score_to_json(story()), leave=True)
+    with pytest.raises(ScoreError, match=r"phrases\[4\].start_s: expected 5.25 or later, the end"):
+        score_from_json(moved_over(once), "take.json")
+
+
+def test_phrases_may_stand_in_any_order():
+    score = told(Part("fox", (WALK, PUNCH)))
+    whole = json.loads(score_to_json(score))
+    whole["performers"][0]["phrases"].reverse()
+    assert score_from_json(json.dumps(whole)) == score
+
+
+def test_a_suggestion_named_otherwise_by_hand_has_that_action_first():
+    both = Suggestion(1.0, 2.0, (Alternative("wave", 2.0), Alternative("clap", 3.0)))
+    whole = json.loads(score_to_json(told(Part("fox", suggestions=(both,)))))
+    whole["performers"][0]["suggestions"][0]["action"] = "clap"
+    (read,) = score_from_json(json.dumps(whole)).performers
+    assert read.suggestions == (replace(both, likeliest=both.likeliest[::-1]),)
+
+
+def test_suggestions_of_all_performers_are_seen_together():
+    other = replace(WAVES, start_s=0.0, end_s=1.0)
+    score = told(Part("fox", suggestions=(other, WAVES)), Part("wolf", suggestions=(other,)))
+    assert score.suggestions == (("fox", other), ("fox", WAVES), ("wolf", other))
+
+
+@pytest.mark.parametrize(
+    ("part", "message"),
+    [
+        ({"intent": "maybe"}, "intent: expected drawn or free, got 'maybe'"),
+        ({"suggestions": (WAVES, WAVES)}, "suggestion at 3.5 s starts before the one before"),
+        (
+            {"phrases": (replace(PUNCH, end_s=4.0),), "suggestions": (WAVES,)},
+            "suggestion at 3.5 s overlaps the phrase 'punch' at 2.25 s",
+        ),
+    ],
+)
+def test_a_part_refuses_what_does_not_go_together(part, message):
+    with pytest.raises(ScoreError, match=message):
+        Part("fox", **part)
+
+
+@pytest.mark.parametrize("likeliest", [(), (Alternative("wave", 1.0),)])
+def test_a_suggestion_has_an_action_and_a_length(likeliest):
+    with pytest.raises(ScoreError, match="suggestion at 1 s: expected"):
+        Suggestion(1.0, 1.0 if likeliest else 2.0, likeliest)
+
+
+@given(st.floats(0.9, 1.1), st.floats(1e-4, 0.1), st.floats(0.0, 9e-10))
+def test_rounding_makes_no_suggestion_overlap_a_phrase(end_s, length_s, into_s):
+    start_s = end_s - into_s
+    whole = Suggestion(start_s, start_s + length_s, WAVES.likeliest)
+    after = Phrase("bow", whole.end_s - into_s, 2.0)
+    part = Part("a", (Phrase("walk", 0.0, end_s), after), suggestions=(whole,))
+    (read,) = score_from_json(score_to_json(Score((part,)))).performers
+    assert len(read.suggestions) <= 1
 
 
 def test_times_are_written_with_three_decimals_and_a_phrase_a_line():
@@ -138,14 +241,36 @@ def minimal() -> dict:
 
 
 DROP = object()
+WAVING = {"action": "wave", "distance": 2.0}
 
 FAULTS = [
+    (
+        ["performers", 0, "intent"],
+        "meant",
+        'performers[0].intent: expected "drawn" or "free", found "meant"',
+    ),
+    (
+        ["performers", 0, "phrases", 1, "implied"],
+        1,
+        "performers[0].phrases[1].implied: expected true or false, found 1",
+    ),
+    (
+        ["performers", 0, "suggestions"],
+        [{"action": "wave", "start_s": 3, "end_s": 4}],
+        'performers[0].suggestions[0].action: expected one of its alternatives, found "wave"',
+    ),
+    (
+        ["performers", 0, "suggestions"],
+        2 * [{"action": "wave", "start_s": 3, "end_s": 4, "alternatives": [WAVING]}],
+        "performers[0].suggestions[1].start_s: expected 4 or later, the end of the suggestion "
+        "before, found 3",
+    ),
     (["schema"], DROP, 'take.json: expected the schema "smd.score", found none'),
     (["schema"], "smd.library", 'expected the schema "smd.score", found "smd.library"'),
-    (["version"], DROP, "version: expected the number 1, found none"),
-    (["version"], True, "version: expected the number 1, found true"),
-    (["version"], "1", 'version: expected the number 1, found "1"'),
-    (["version"], 2, "version: expected 1, the newest this release reads, found the newer 2"),
+    (["version"], DROP, "version: expected the number 2, found none"),
+    (["version"], True, "version: expected the number 2, found true"),
+    (["version"], "1", 'version: expected the number 2, found "1"'),
+    (["version"], 3, "version: expected 2, the newest this release reads, found the newer 3"),
     (["performers"], DROP, 'take.json: expected the key "performers", found none'),
     (["performers"], {}, "performers: expected a list, found an object"),
     (["performer"], [], 'expected the key "performers", found the unknown key "performer"'),

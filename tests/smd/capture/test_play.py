@@ -11,7 +11,7 @@ from smd.capture.take import Progress
 from smd.cli.capturing import LiveLine
 from smd.doodle import Recording
 from smd.formats import read_recording, write_recording
-from smd.score import read_score
+from smd.score_file import read_score
 from tests.smd.capture.conftest import hand, played
 from tests.standin.runtime import CONTROLLER, GRIP, LEFT, TRACKER, TRIGGER, Played, Scene
 

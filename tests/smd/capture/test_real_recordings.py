@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from smd.formats import read_recording
-from smd.score import read_score
+from smd.score_file import read_score
 
 
 @pytest.mark.parametrize("name", ["raw/grabLeft.json", "grabRight_right.csv"])

@@ -115,7 +115,7 @@ def test_an_option_that_makes_no_sense_is_refused(run_smd, stories, option, valu
     ("change", "said"),
     [
         (('"action": "', '"action": "moon'), "moon"),
-        (('"version": 1', '"version": 99'), "99"),
+        (('"version": 2', '"version": 99'), "99"),
         (('"smd.score"', '"smd.tale"'), "smd.tale"),
         (('"start_s"', '"begin_s"'), "begin_s|start_s"),
         (("{", "["), ""),

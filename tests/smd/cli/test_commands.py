@@ -19,7 +19,7 @@ def test_json_is_all_that_json_prints(run_smd, stories):
     code, out, _ = run_smd("parse", stories / "duel.csv", "--json")
     score = json.loads(out)
     assert code == 0
-    assert (score["schema"], score["version"]) == ("smd.score", 1)
+    assert (score["schema"], score["version"]) == ("smd.score", 2)
     phrase = score["performers"][0]["phrases"][0]
     assert {"action", "start_s", "end_s", "effort", "confidence", "alternatives"} == set(phrase)
 

@@ -181,3 +181,17 @@ def test_a_front_along_up_is_refused():
         RecordingError, match=r"front: expected an axis across up \(y\), found '-y'"
     ):
         SourceFrame(front="-y").completed(SourceFrame.ours()).conversion()
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize(("up", "front"), [("y", "z"), ("z", "-y"), ("-y", "x"), ("x", "-z")])
+@pytest.mark.parametrize("quaternion", ["xyzw", "wxyz"])
+def test_a_conversion_is_undone_to_the_sources_numbers(up, front, hand, quaternion):
+    rng = np.random.default_rng(3)
+    frame = SourceFrame(up, front, hand, "cm", quaternion, Mount(30.0, -50.0, 70.0, 0.1, -0.2, 0.3))
+    conversion = frame.conversion()
+    position, q = rng.standard_normal((5, 3)), rng.standard_normal((5, 4))
+    q /= np.linalg.norm(q, axis=1, keepdims=True)
+    again, q_again = conversion.numbers(*conversion.poses(position, q))
+    assert_allclose(again, position, atol=1e-9)
+    assert_allclose(np.abs(np.sum(q_again * q, axis=1)), 1.0, atol=1e-12)

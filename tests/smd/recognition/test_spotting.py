@@ -14,6 +14,7 @@ from smd.recognition.action import Action
 from smd.recognition.exemplar import Exemplar
 from smd.recognition.pattern import Pattern
 from smd.recognition.verification import TERMS
+from smd.smoothing import smooth
 from smd.synthetic.curves import straight_line
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take
@@ -199,3 +200,15 @@ def test_no_alternative_is_nearer_than_the_action(player, recognizer):
     assert any(span.alternatives for span in spans)
     for span in spans:
         assert all(distance >= span.distance for _, distance in span.alternatives)
+
+
+def test_stretches_are_weighed_as_their_spans_are_named(player, recognizer):
+    doodle = take(*player, "walk", "punch", "bow").doodle()
+    motion = smooth(doodle)
+    runs = recognizer.runs_of(doodle, motion)
+    spans = recognizer.spot_runs(motion, runs)
+    weighed = recognizer.weigh(motion, runs, [(span.start_s, span.end_s) for span in spans])
+    for span, (best, *_) in zip(spans, weighed, strict=True):
+        assert (best.action, best.distance) == (span.action, pytest.approx(span.distance))
+        assert best.distance <= best.most < np.inf
+    assert recognizer.weigh(motion, runs, []) == []

@@ -12,7 +12,7 @@ from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition.recognizer import recognize
 from smd.recognition.tokenizer import tokenize
-from smd.score import read_score
+from smd.score_file import read_score
 from smd.smoothing import smooth
 from smd.synthetic.efforts import ACTIONS
 from smd.synthetic.stories import STORIES, main

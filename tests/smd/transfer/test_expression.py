@@ -386,7 +386,7 @@ def test_damping_leaves_what_is_slow_and_takes_what_is_quick():
 
 def test_a_performance_with_the_dial_at_0_is_neutral_and_above_it_is_not():
     from smd.formats import read_recording
-    from smd.score import read_score
+    from smd.score_file import read_score
     from tests.smd.synthetic.test_stories import RECORDINGS
 
     recording = read_recording(RECORDINGS / "postman.csv")
