@@ -100,7 +100,7 @@ def parse(
                 own,
                 figure_height_m=figure_height_m,
                 tolerance=tolerance,
-                intent=intent and Intent(intent),
+                intent=None if intent is None else Intent(intent),
             )
         understood: list[Understood] = []
         for doodle in recording.of(device):

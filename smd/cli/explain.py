@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from actions_library.cast import Cast
     from smd.doodle import Doodle, Recording
     from smd.recognition import Match
-    from smd.score import Phrase, Score
+    from smd.score import Part, Phrase, Score
 
 SHOWN_OTHERS = 2
 """So many of the actions that came next are shown."""

@@ -94,6 +94,8 @@ class Exemplar:
         apart = frozen_array("apart", self.apart, (None, len(COURSES)), DoodleError)
         if n == 0 or len(apart) not in ((0,) if n == 1 else (n,)):
             raise DoodleError(f"apart: expected {n if n > 1 else 0} rows, got {len(apart)}")
+        if self.background is not None and not np.isfinite(self.background):
+            raise DoodleError(f"background: expected a finite number, got {self.background}")
         own = frozen_array("own", self.own, (n,), DoodleError, np.bool_)
         mixed = own.any() and not own.all()
         weight = np.where(own, 1.0, STRANGERS / max(n - own.sum(), 1)) if mixed else np.ones(n)
@@ -155,7 +157,7 @@ class Exemplar:
             measures=arrays["measures"],
             apart=arrays["apart"],
             own=_owned(own, len(arrays["measures"])),
-            background=float(arrays["background"]) if "background" in arrays else None,
+            background=_number("background", arrays.get("background")),
         )
 
     @property
@@ -203,6 +205,13 @@ def exemplar_of(examples: Sequence[Traits], *, own: Ownership = False) -> Exempl
             apart[i, k] = nearest_distances(one, rest)[0]
     measures = np.stack([example.measures for example in examples])
     return Exemplar(courses, measures, apart, _owned(own, n))
+
+
+def _number(name: str, array: FloatArray | None) -> float | None:
+    """Return the number that an array holds, or None where there is none."""
+    if array is not None and array.shape != ():
+        raise DoodleError(f"{name}: expected one number, got shape {array.shape}")
+    return None if array is None else float(array)
 
 
 def faced(shapes: FloatArray, central: FloatArray) -> FloatArray:
