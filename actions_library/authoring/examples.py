@@ -19,6 +19,7 @@ from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.action import Action
 from smd.recognition.alignment import distance_table
+from smd.recognition.background import weighed
 from smd.recognition.exemplar import BAND, USUAL_DISTANCE, Exemplar, exemplar_of, faced
 from smd.recognition.learning import without_rest
 from smd.recognition.tokenizer import tokenize
@@ -63,7 +64,7 @@ def _exemplar(action: str) -> Exemplar:
     for doodles, count in _groups(action):
         kept = [traits for traits in map(_traits, doodles) if traits]
         examples += [kept[i] for i in medoids(_apart(kept), count)] if kept else []
-    return exemplar_of(examples)
+    return weighed(exemplar_of(examples))
 
 
 def medoids(apart: FloatArray, count: int) -> IntArray:

@@ -163,10 +163,11 @@ class Recognizer:
         self._verified = np.array([bool(one) for one in exemplars], dtype=bool)
         self._durations_s = np.array([one.duration_s if one else np.nan for one in exemplars])
         background = np.array([one.background if one else np.nan for one in exemplars], float)
+        has_own = np.array([bool(one and one.own.any()) for one in exemplars], bool)
         self._most = {
             each: np.where(
                 self._verified,
-                accepted_cost(background, each, tolerance=tolerance),
+                accepted_cost(background, has_own, each, tolerance=tolerance),
                 UNVERIFIED + UNVERIFIED_WRONG,
             )
             for each in Intent

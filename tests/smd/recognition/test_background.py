@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from smd.recognition.acceptance import MARGIN, Intent, accepted_cost
+from smd.recognition.acceptance import OTHERS_MARGIN, OWN_MARGIN, Intent, accepted_cost
 from smd.recognition.background import (
     OWN_LENGTHS,
     QUANTILE,
@@ -80,9 +80,11 @@ def test_made_up_movement_moves_as_hands_can(seed):
 
 
 def test_what_an_action_may_cost_follows_background_intent_and_tolerance():
-    background_log = np.log([8.0, 16.0])
-    drawn, free = (accepted_cost(background_log, intent) for intent in Intent)
+    usual, own = np.array([8.0, 16.0]), np.array([True, False])
+    drawn, free = (accepted_cost(np.log(usual), own, intent) for intent in Intent)
     assert (drawn > free).all()
-    np.testing.assert_allclose(free, np.array([8.0, 16.0]) * np.exp(-MARGIN[Intent.FREE]))
-    half = accepted_cost(background_log, Intent.FREE, tolerance=0.5)
+    assert drawn[1] / usual[1] > drawn[0] / usual[0]  # another's way is not quite one's own
+    margin = [OWN_MARGIN[Intent.FREE], OTHERS_MARGIN[Intent.FREE]]
+    np.testing.assert_allclose(free, usual * np.exp(-np.array(margin)))
+    half = accepted_cost(np.log(usual), own, Intent.FREE, tolerance=0.5)
     np.testing.assert_allclose(half, 0.5 * free)
