@@ -346,6 +346,4 @@ def busiest(doodles: Iterable[Doodle]) -> Doodle:
     firsts = np.arange(len(time_s))[time_s <= time_s[-1] - SAMPLE_S]
     lasts = np.searchsorted(time_s, time_s[firsts] + SAMPLE_S, side="right")
     first = int(np.argmax(way[lasts - 1] - way[firsts]))
-    kept = slice(first, int(lasts[first]))
-    fields = ("time_s", "position_m", "orientation_xyzw", "drawing")
-    return replace(doodle, **{name: getattr(doodle, name)[kept] for name in fields})
+    return doodle.selected(slice(first, int(lasts[first])))

@@ -84,8 +84,8 @@ class Doodle:
         before = np.searchsorted(self.time_s, time_s + 1e-9, side="right") - 1
         return self.drawing[np.maximum(before, 0)]
 
-    def selected(self, rows: IntArray | BoolArray) -> Doodle:
-        """Return the doodle of some of the samples: their indices in order, or a mask ``(n,)``."""
+    def selected(self, rows: IntArray | BoolArray | slice) -> Doodle:
+        """Return the doodle of some samples: their indices in order, a mask ``(n,)`` or a slice."""
         return replace(
             self,
             time_s=self.time_s[rows],

@@ -19,7 +19,7 @@ class Intent(StrEnum):
     """Nothing says so: most movement is not."""
 
 
-OWN_MARGIN = {Intent.DRAWN: 0.0, Intent.FREE: 0.35}
+OWN_MARGIN = {Intent.DRAWN: -0.1, Intent.FREE: 0.3}
 """How far below its background the cost of an action must lie, as a logarithm, where some of its
 examples are the performer's own."""
 

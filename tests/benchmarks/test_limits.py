@@ -10,10 +10,9 @@ import pytest
 from actions_library.folder import load_library
 from benchmarks.limits import LimitRecognizer, limits
 from smd.formats import read_recording
-from smd.score import read_score
+from smd.score_file import read_score
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take
-from tests.benchmarks.conftest import idling
 
 RECORDINGS = Path(__file__).parents[2] / "recordings"
 
@@ -32,10 +31,6 @@ def test_it_reads_the_shipped_stories(recognizer, story):
         for span, phrase in zip(found, part.phrases, strict=True):
             assert span.start_s == pytest.approx(phrase.start_s, abs=0.15)
             assert span.end_s == pytest.approx(phrase.end_s, abs=0.15)
-
-
-def test_it_leaves_idle_hands_alone(recognizer):
-    assert recognizer.spot(idling(1)) == []
 
 
 def test_tolerance_moves_every_limit(recognizer):

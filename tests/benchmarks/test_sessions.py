@@ -11,6 +11,7 @@ from benchmarks import guards, sessions
 from benchmarks.composed import Teaching, sessions_of
 from benchmarks.sessions import DRAWN, DRAWN_STRICT, FREE, LIMITS, OURS, PLAIN, Trial, Trials
 from benchmarks.tally import Named, Tally
+from benchmarks.variants import VARIANTS
 from smd.doodle import Doodle
 
 OWN_2 = Teaching(own=2)
@@ -25,7 +26,7 @@ def found(people, idle):
 def test_every_form_is_tried_free_and_drawn(found):
     session, trials = found
     assert [(one.form, one.said) for one in trials.every] == [
-        *((form, said) for form in (OURS, LIMITS, PLAIN) for said in (FREE, DRAWN)),
+        *((form, said) for form in (OURS, LIMITS, *VARIANTS, PLAIN) for said in (FREE, DRAWN)),
         (OURS, DRAWN_STRICT),
         (LIMITS, DRAWN_STRICT),
     ]
@@ -35,24 +36,25 @@ def test_every_form_is_tried_free_and_drawn(found):
         assert one.counts.known == known
         assert one.counts.known + one.counts.others == len(session.gestures)
         assert one.spotting_s > 0.0
-        assert (one.idle_minutes > 0.0) == (one.said == FREE)
+        assert (one.idle_minutes > 0.0) == (one.said == FREE and one.form not in VARIANTS)
 
 
 def test_with_the_trigger_held_made_up_gestures_are_found(found):
     assert found[1].of(LIMITS, DRAWN, OWN_2).counts.recall > 0.8
 
 
-def test_variants_are_tried_where_nothing_is_said(people, idle, monkeypatch):
+def test_variants_are_tried_beside_the_forms(people, idle, monkeypatch):
     class Silent:
         def spot(self, doodle: Doodle) -> Sequence[Named]:
-            assert doodle.drawing is None
             return []
 
     monkeypatch.setattr(sessions, "FORMS", {})
     monkeypatch.setattr(sessions, "VARIANTS", {"silent": lambda actions: Silent()})
     one = next(sessions_of(people, idle, [OWN_2], seed=1))
-    counts = sessions.trials([one], idle).of("silent", FREE, OWN_2).counts
-    assert (counts.hits, counts.false, counts.left_alone) == (0, 0, 1.0)
+    found = sessions.trials([one], idle)
+    for said in (FREE, DRAWN):
+        counts = found.of("silent", said, OWN_2).counts
+        assert (counts.hits, counts.false, counts.left_alone) == (0, 0, 1.0)
 
 
 def test_trials_are_added_up_by_what_is_asked_for():
@@ -98,10 +100,13 @@ def test_every_table_has_a_row_for_each_form(found, capsys, monkeypatch):
     small = found[1].every
     both = Trials((*small, *(replace(one, small=False) for one in small)))
     for show, rows in (
-        (lambda: sessions.print_found(both, FREE), 3 + 2),  # and two of what ours gains
+        (
+            lambda: sessions.print_found(both, FREE),
+            3 + len(VARIANTS) + 2,
+        ),  # and two of what ours gains
         (lambda: sessions.print_drawn(both), 4),
         (lambda: sessions.print_idle(both), 3),
-        (lambda: sessions.print_times(both), 3),
+        (lambda: sessions.print_times(both), 3 + len(VARIANTS)),
     ):
         show()
         out = capsys.readouterr().out

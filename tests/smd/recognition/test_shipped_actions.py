@@ -26,8 +26,10 @@ def test_every_gesture_that_is_drawn_belongs_to_an_action():
     assert set(GESTURES) == {a.name for a in load_library().actions if a.pattern is not None}
 
 
-@pytest.mark.parametrize("factor", [0.5, 1.0, 2.0])
-def test_a_steady_hand_is_understood_at_any_size(recognizer, factor):
+@pytest.mark.parametrize(("factor", "figure_height_m"), [(0.5, 0.175), (1.0, 0.175), (2.0, 0.35)])
+def test_a_steady_hand_is_understood_at_any_size(factor, figure_height_m):
+    """What is drawn twice as large by chance is rejected; a larger figure is one that is said."""
+    recognizer = Recognizer(load_library(), figure_height_m=figure_height_m)
     for action in GESTURES:
         played = take(action, STEADY, np.random.default_rng(0))
         doodle, (meant,) = played.doodle(), played.phrases
