@@ -107,7 +107,8 @@ def read_in_steps(
         return Effort()
     description = yield from described_in_steps(motion)
     yield
-    return effort_of(description, model, own)
+    effort = yield from model.reader(own).effort_in_steps(description, own)
+    return effort
 
 
 def effort_of(description: FloatArray, model: EffortModel, own: OwnMeasure | None = None) -> Effort:
