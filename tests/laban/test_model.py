@@ -121,7 +121,7 @@ def test_the_same_path_played_faster_never_reads_less_sudden(seed, unmuted, rand
         for pace in (0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0)
     ]
     assert (np.diff(readings) >= -0.05).all()  # at the poles hardly anything is left to tell
-    assert readings[-1] - readings[0] > 0.5
+    assert readings[-1] - readings[0] > 0.4
 
 
 @pytest.mark.parametrize("n", [0, 1, 3])
