@@ -112,16 +112,19 @@ def test_products_are_of_the_entries_as_they_are_seen(shipped, random_motion):
     np.testing.assert_allclose(entries.seen(entries.values(many))[0], found)
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_the_same_path_played_faster_never_reads_less_sudden(seed, unmuted, random_motion):
-    readings = [
-        read_effort(
-            random_motion(np.random.default_rng(seed), size_m=0.02, pace=pace), unmuted
-        ).time
-        for pace in (0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0)
-    ]
-    assert (np.diff(readings) >= -0.05).all()  # at the poles hardly anything is left to tell
-    assert readings[-1] - readings[0] > 0.4
+def test_the_same_path_played_faster_never_reads_less_sudden(unmuted, random_motion):
+    rises = []
+    for seed in range(10):
+        readings = [
+            read_effort(
+                random_motion(np.random.default_rng(seed), size_m=0.02, pace=pace), unmuted
+            ).time
+            for pace in (0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0)
+        ]
+        assert (np.diff(readings) >= -0.05).all()  # at the poles hardly anything is left to tell
+        rises.append(readings[-1] - readings[0])
+    assert min(rises) > 0.4
+    assert np.median(rises) > 1.5  # most go from one pole to the other
 
 
 @pytest.mark.parametrize("n", [0, 1, 3])
