@@ -112,14 +112,12 @@ def movement_qualities(motion: RigidMotion) -> FloatArray:
 def qualities_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
     """Do what `movement_qualities` does, in steps."""
     turning_rad = _turning_rad(motion.position_m, motion.step_s)
-    yield
     of_path = _of_path(motion, turning_rad)
     yield
     speed = body_speed(motion)
     smoothness = spectral_arc_length(speed, motion.step_s)
     yield
-    of_speed = _of_speed(motion, speed)
-    yield
+    of_speed = yield from _of_speed(motion, speed)
     values = {"spectral_arc_length": smoothness, **of_path, **of_speed}
     return np.array([values[quality.name] for quality in QUALITIES])
 
@@ -157,8 +155,8 @@ def _of_path(motion: RigidMotion, turning_rad: float) -> dict[str, float]:
     )
 
 
-def _of_speed(motion: RigidMotion, speed: FloatArray) -> dict[str, float]:
-    """Return the qualities of the body's speed and of its derivatives, but for the spectrum's."""
+def _of_speed(motion: RigidMotion, speed: FloatArray) -> Steps[dict[str, float]]:
+    """Return the qualities of the body's speed and its derivatives but the spectrum's, in steps."""
     step_s = motion.step_s
     duration_s = step_s * len(motion)
     reach = round(0.5 * CHORD_S / step_s)
@@ -172,6 +170,7 @@ def _of_speed(motion: RigidMotion, speed: FloatArray) -> dict[str, float]:
     jerk = body_rate(motion.jerk_m_s3, motion.angular_jerk_rad_s3)
     rms_speed, rms_jerk = max(_rms(speed), 1e-4), max(_rms(jerk), 1e-4)
     rms_acceleration = _rms(acceleration)
+    yield
     in_order = np.sort(speed)
     mean_speed, peak = max(float(speed.mean()), 1e-4), max(float(in_order[-1]), 1e-4)
     low, high = _percentile(in_order, 0.1), _percentile(in_order, 0.9)

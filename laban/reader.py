@@ -65,7 +65,6 @@ class Entries:
             return resized(description, -self.sizes.beyond(size))[..., self.columns]
         assert own is not None
         size = yield from self.sizes.in_steps(own.mean)
-        yield
         mean = resized(own.mean, -size)[self.columns]
         yield
         values = resized(description, np.broadcast_to(-size, description.shape[:-1]))
