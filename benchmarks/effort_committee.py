@@ -17,7 +17,7 @@ from benchmarks.laban import SEED, real_people, simulated, spread_at
 from laban.committee import MEMBERS, folds, held_out_odds, temperature
 from laban.linear import Linear
 from laban.motion import FloatArray
-from laban.training import entries_of, seen_in, typical_of
+from laban.training import entries_of, seen_in
 from smd.effort import Examples
 
 IntArray = NDArray[np.int64]
@@ -82,8 +82,7 @@ def by_simulated(examples: Examples, against: bool, rng: np.random.Generator) ->
                         labels[take, axis] = pole
         taken = np.flatnonzero(np.isfinite(labels).any(axis=1))
         others = np.flatnonzero(~np.isin(whose, group))
-        typical = typical_of(described[taken], whose[taken]) if against else None
-        entries = entries_of(described[taken], whose[taken], typical)
+        entries = entries_of(described[taken], whose[taken], against)
         seen = seen_in(entries, described[taken], whose[taken])
         asked = seen_in(entries, described[others], whose[others])
         for axis in range(labels.shape[1]):
@@ -105,8 +104,7 @@ def by_real(examples: Examples, against: bool) -> Shares:
     for goal in examples.meant.T:
         right: dict[Choice, list[bool]] = {}
         for out in folds(whose):
-            typical = typical_of(described[~out], whose[~out]) if against else None
-            entries = entries_of(described[~out], whose[~out], typical)
+            entries = entries_of(described[~out], whose[~out], against)
             seen = seen_in(entries, described[~out], whose[~out])
             known, asked = np.isfinite(goal[~out]), np.isfinite(goal[out])
             told = seen_in(entries, described[out], whose[out])[asked]

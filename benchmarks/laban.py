@@ -30,7 +30,13 @@ from laban.naive_bayes import fit_papers_method
 from laban.own import OwnMeasure, measure_of
 from laban.training import AxisReport, Training
 from smd.doodle import Doodle, Recording
-from smd.effort import SIMULATED_SEED, Examples, accuracy_interval, read_manifest
+from smd.effort import (
+    SIMULATED_SEED,
+    Examples,
+    accuracy_interval,
+    read_manifest,
+    recording_efforts,
+)
 from smd.effort import simulated_examples as simulated
 from smd.formats import SourceFrame, read_recording, write_recording
 from smd.geometry.arrays import FloatArray
@@ -38,9 +44,8 @@ from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.smoothing import smooth
 from smd.synthetic.efforts import SPREAD, Spread, fourfold_takes, with_noise
 
-DATA = (
-    Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data")) / "laban"
-)
+SHARED = Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data"))
+DATA = SHARED / "laban"
 PEOPLE, REPEATS, SEED = 48, 4, SIMULATED_SEED + 1
 """Of the simulated people of each difficulty; not those of the shipped model."""
 
@@ -49,6 +54,15 @@ DIFFICULTIES = (0.5, 0.75, 1.0)
 
 NOISE, DRAWS = "noise of 1 mm and 0.5 degrees", 10
 """What takes are measured worse by, and how often: one draw says little about 72 takes."""
+
+SCALES = (2.0, 6.0, 0.5)
+"""How many times as large movements are made."""
+
+SURE = 0.9
+"""A reading beyond this is saturated, where nothing was learned."""
+
+HISTORY = (3, 7, 15, 31)
+"""How many phrases somebody has played before the one that is read."""
 
 Classify = Callable[[FloatArray, NDArray[np.bool_], NDArray[np.int64], FloatArray], FloatArray]
 """Learns from rows, which are of the high pole and whose they are; returns log odds of others."""
@@ -282,25 +296,127 @@ def print_robustness(title: str, doodles: Sequence[Doodle], meant: FloatArray) -
 
 
 def print_left_out_robustness(doodles: Sequence[Doodle], examples: Examples) -> None:
-    """Print how many decisions flip under noise, by models that the others' takes taught."""
+    """Print how many decisions flip, by models that the others' takes taught."""
     rng = np.random.default_rng(SEED)
     noisy = [[describe(smooth(changed(d, NOISE, rng))) for d in doodles] for _ in range(DRAWS)]
-    described = np.array([examples.descriptions, *noisy])
-    readings = np.zeros((2, *described.shape[:2], len(AXES)))  # unknown, known; clean, then draws
+    large = [[describe(smooth(larger(d, scale))) for d in doodles] for scale in SCALES]
+    described = np.array([examples.descriptions, *noisy, *large])
+    readings = np.zeros((2, *described.shape[:2], len(AXES)))  # unknown, known; clean, then changed
     performers = np.asarray(examples.performers)
     for person in np.unique(performers):
         out = performers == person
         others = Examples(described[0, ~out], examples.meant[~out], tuple(performers[~out]))
         model = others.train(trained_on="benchmark").model
-        for seen, takes in enumerate(described[:, out]):
-            readings[:, seen, out] = [
+        for i, takes in enumerate(described[:, out]):
+            readings[:, i, out] = [
                 _readings(takes, model, own) for own in (None, measure_of(takes))
             ]
-    print(f"real people, each read by a model of the others, {NOISE}")
+    print("real people, each read by a model of the others")
     for title, (before, *after) in zip(
         ("performer unknown", "with the performer's takes"), readings, strict=True
     ):
-        print(f"  {title:30} {flips(before, np.array(after), examples.meant)}")
+        print(f"  {title}")
+        print(f"    {NOISE:30} {flips(before, np.array(after[:DRAWS]), examples.meant)}")
+        for scale, at_scale in zip(SCALES, after[DRAWS:], strict=True):
+            print_scale(scale, before, at_scale, examples.meant)
+
+
+def larger(doodle: Doodle, scale: float) -> Doodle:
+    """Return a take whose way is so many times as large, its noise with it."""
+    return replace(doodle, position_m=scale * doodle.position_m)
+
+
+def print_scale(scale: float, before: FloatArray, after: FloatArray, meant: FloatArray) -> None:
+    """Print how many decisions flip at a scale, by axis too, and how far takes keep their order.
+
+    ``before``, ``after`` and ``meant`` ``(n, a)``; NaN where not labelled. The order is the area
+    under the curve, before and after.
+    """
+    each = []
+    for axis, was, is_now, label in zip(AXES, before.T, after.T, meant.T, strict=True):
+        poles = np.abs(label) == 1.0
+        differ = 100.0 * np.mean((was > 0)[poles] != (is_now > 0)[poles])
+        order = [auc(AxisReport(reading[poles], label[poles])) for reading in (was, is_now)]
+        each.append(f"{axis} {differ:.1f} % ({order[0]:.2f} to {order[1]:.2f})")
+    print(f"    {f'{scale:g} times as large':30} {flips(before, after[None], meant)}")
+    print(f"      {', '.join(each)}", flush=True)
+
+
+def print_scales(title: str, doodles: Sequence[Doodle], examples: Examples) -> None:
+    """Print how many decisions of the shipped model flip when takes are larger or smaller."""
+    model = load_effort_model()
+    performers = np.asarray(examples.performers)
+    print(f"{title}: {len(doodles)} takes, the shipped model")
+    at = [[describe(smooth(larger(d, scale))) for d in doodles] for scale in SCALES]
+    described = np.array([examples.descriptions, *at])
+    for own in (False, True):
+        readings = np.zeros((*described.shape[:2], len(AXES)))
+        for person in np.unique(performers):
+            mine = performers == person
+            for i, takes in enumerate(described[:, mine]):
+                readings[i, mine] = _readings(takes, model, measure_of(takes) if own else None)
+        print("  with the performer's takes" if own else "  performer unknown")
+        for scale, after in zip(SCALES, readings[1:], strict=True):
+            print_scale(scale, readings[0], after, examples.meant)
+
+
+def print_free_play() -> None:
+    """Print how sure the shipped model is of movement of a kind that it has not learned."""
+    model = load_effort_model()
+    for title, files, frame in (
+        ("A-Frame sessions", sorted(SHARED.glob("controllers/aframe/raw/*.json")), SourceFrame()),
+        ("idle hands", sorted(SHARED.glob("idle/*.csv")), SourceFrame(handedness="left")),
+    ):
+        recordings = [read_recording(path, frame) for path in files]
+        whole = [
+            values(doodle, model)
+            for recording in recordings
+            for doodle in recording.doodles
+            if len(doodle.time_s) > 9
+        ]
+        found = [read for recording in recordings for read in recording_efforts(recording, model)]
+        parts = [[getattr(read.effort, a) for a in AXES] for read in found if read.state]
+        chances = [read.state[2] for read in found if read.state]
+        print(f"{title}: {len(files)} files")
+        for what, readings in (("whole doodles", whole), ("movements between rests", parts)):
+            sure = np.abs(np.array(readings))
+            print(
+                f"  {what:24} {len(sure):4d}: {int(np.sum(sure > SURE))} of {sure.size} axes above "
+                f"{SURE:g}, median {np.median(sure):.2f}, most {sure.max():.2f}"
+            )
+        print(f"  chance of the joint state: median {np.median(chances):.2f}")
+
+
+def print_histories() -> None:
+    """Print how phrases are told alone, and against others that the same person played before.
+
+    Simulated people of the middle difficulty; what they played before is various, or all of it in
+    the same Effort of Time and Weight as the phrase, as in a scene of one mood.
+    """
+    examples = simulated(people=12, repeats=REPEATS, seed=SEED + 1, spread=spread_at(0.75))
+    model, rng = load_effort_model(), np.random.default_rng(SEED)
+    whose = np.unique(np.asarray(examples.performers), return_inverse=True)[1]
+    described, meant = examples.descriptions, examples.meant
+    print("simulated people: phrases after others of the same person")
+    for title, one_mood in (("various", False), ("of one mood", True)):
+        for count in HISTORY:
+            right: list[list[bool]] = []
+            for i in range(len(described)):
+                others = np.flatnonzero((whose == whose[i]) & (np.arange(len(whose)) != i))
+                if one_mood:
+                    others = others[(meant[others, :2] == meant[i, :2]).all(axis=1)]
+                before = rng.choice(others, min(count, len(others)), replace=False)
+                own = measure_of(described[before])
+                each = [effort_of(described[i], model, known) for known in (None, own)]
+                right += [
+                    [getattr(effort, axis) * label > 0 for effort in each]
+                    for axis, label in zip(AXES, meant[i], strict=True)
+                    if abs(label) == 1.0
+                ]
+            alone, against = np.mean(right, axis=0)
+            print(f"  {title}, {count} before: alone {alone:.3f}, against them {against:.3f}")
+            if one_mood:
+                break  # a person has played no more than three others in one mood
 
 
 def _readings(
@@ -386,6 +502,7 @@ def main() -> None:
         motions, doodles, examples = real_people()
         print_real(motions, examples)
         print_robustness("real people", doodles, examples.meant)
+        print_scales("real people", doodles, examples)
         print_left_out_robustness(doodles, examples)
         print_times(max(motions, key=len), measure_of(examples.descriptions[:8]))
     else:
@@ -394,6 +511,13 @@ def main() -> None:
     efforts = [[getattr(take.effort, axis) for axis in AXES] for take in takes]
     meant = np.array(efforts, dtype=np.float64)  # None, not labelled, becomes NaN
     print_robustness("simulated people", [take.doodle for take in takes], meant)
+    described = np.array([describe(smooth(take.doodle)) for take in takes])
+    players = tuple(take.player for take in takes)
+    print_scales(
+        "simulated people", [take.doodle for take in takes], Examples(described, meant, players)
+    )
+    print_free_play()
+    print_histories()
     print_whole_process()
     print_simulated()
     if folder := picture_folder():

@@ -144,5 +144,6 @@ def described_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
         moving = motion
     yield
     features = yield from features_in_steps(moving)
+    yield
     qualities = yield from qualities_in_steps(moving)
     return np.concatenate([features, np.log(features + _FLOOR), qualities])

@@ -102,12 +102,14 @@ def read_effort(motion: RigidMotion, model: EffortModel, own: OwnMeasure | None 
 def read_in_steps(
     motion: RigidMotion, model: EffortModel, own: OwnMeasure | None = None
 ) -> Steps[Effort]:
-    """Do what `read_effort` does, in steps."""
+    """Do what `read_effort` does, in steps; the first does nothing, as a stream opens a window."""
+    yield
     if not is_readable(motion):
         return Effort()
     description = yield from described_in_steps(motion)
     yield
-    return effort_of(description, model, own)
+    effort = yield from model.reader(own).effort_in_steps(description, own)
+    return effort
 
 
 def effort_of(description: FloatArray, model: EffortModel, own: OwnMeasure | None = None) -> Effort:

@@ -18,11 +18,13 @@ from laban.description import DESCRIPTION_NAMES
 from laban.effort import AXES, LabanError
 from laban.linear import Linear, Softmax
 from laban.model import NEUTRAL, POLES, STATES, EffortModel, Taught
+from laban.motion import FloatArray
 from laban.reader import AxisReader, Entries, Reader, StateReader
 from laban.record import Record
+from laban.size import Sizes
 
 SCHEMA = "laban.effort_model"
-VERSION = 4
+VERSION = 5
 
 
 def load_effort_model(path: Path | str | None = None) -> EffortModel:
@@ -118,6 +120,9 @@ def _reader_record(reader: Reader) -> dict[str, Any]:
             "range": [entries.lowest[i], entries.highest[i]],
             "centre": entries.centre[i],
             "scale": entries.scale[i],
+            "usual": entries.sizes.centre[i],
+            "size": entries.sizes.weight[i],
+            "unlike": entries.unlike[i, : i + 1].tolist(),
         }
         if entries.typical is not None:
             entry["typical"] = entries.typical[i]
@@ -141,6 +146,8 @@ def _reader_record(reader: Reader) -> dict[str, Any]:
             "held_out_accuracy": states.held_out_accuracy,
             "bias": states.classifier.bias.tolist(),
         },
+        "size_spread": entries.sizes.spread,
+        "reach": reader.reach,
         "entries": listed,
         "products": products,
     }
@@ -183,7 +190,9 @@ def _reader_from(record: Record, axes: list[str], *, own: bool) -> Reader:
     listed, products = record.records("entries"), record.records("products")
     if not listed:
         raise record.fault("entries", "expected at least one, got none")
-    entries = _entries_from(listed, products, own=own)
+    spread = record.number("size_spread", 0.0, open_ends=True)
+    entries = _entries_from(listed, products, spread, own=own)
+    reach = record.number("reach", 0.0, open_ends=True)
     weighed = [*listed, *products]
     parts = record.record("axes")
     readers = {}
@@ -195,7 +204,7 @@ def _reader_from(record: Record, axes: list[str], *, own: bool) -> Reader:
             part.number("held_out_accuracy", 0.0, 1.0),
         )
     if record.get("states", dict | None) is None:
-        return Reader(entries, readers)
+        return Reader(entries, readers, reach)
     states = record.record("states")
     expected = [_state_name(state) for state in STATES]
     if states.get("names", list) != expected:
@@ -204,6 +213,7 @@ def _reader_from(record: Record, axes: list[str], *, own: bool) -> Reader:
     return Reader(
         entries,
         readers,
+        reach,
         StateReader(
             Softmax(weight, np.array(states.numbers("bias", len(STATES)))),
             states.number("held_out_accuracy", 0.0, 1.0),
@@ -215,7 +225,9 @@ def _members_from(record: Record) -> Mapping[str, float]:
     return {name: record.number(name, 0.0, 1.0) for name in record.content}
 
 
-def _entries_from(listed: list[Record], products: list[Record], *, own: bool) -> Entries:
+def _entries_from(
+    listed: list[Record], products: list[Record], size_spread: float, *, own: bool
+) -> Entries:
     """Return which entries of a description a reader looks at, and which products of them."""
     names = [one.get("name", str) for one in listed]
     for i, (one, name) in enumerate(zip(listed, names, strict=True)):
@@ -231,8 +243,9 @@ def _entries_from(listed: list[Record], products: list[Record], *, own: bool) ->
     for product, pair in zip(products, pairs, strict=True):
         if len(pair) != 2 or any(name not in names for name in pair):
             raise product.fault("of", f"expected the names of two entries, got {pair!r}")
+    columns = np.array([DESCRIPTION_NAMES.index(name) for name in names], dtype=np.int64)
     return Entries(
-        columns=np.array([DESCRIPTION_NAMES.index(name) for name in names], dtype=np.int64),
+        columns=columns,
         lowest=ranges[:, 0],
         highest=ranges[:, 1],
         centre=np.array([one.number("centre") for one in listed]),
@@ -240,5 +253,20 @@ def _entries_from(listed: list[Record], products: list[Record], *, own: bool) ->
         pairs=np.array(
             [[names.index(name) for name in pair] for pair in pairs], dtype=np.int64
         ).reshape(-1, 2),
+        unlike=_lower_triangle([one.numbers("unlike", i + 1) for i, one in enumerate(listed)]),
+        sizes=Sizes(
+            columns,
+            np.array([one.number("usual") for one in listed]),
+            np.array([one.number("size") for one in listed]),
+            size_spread,
+        ),
         typical=np.array([one.number("typical") for one in listed]) if own else None,
     )
+
+
+def _lower_triangle(rows: list[list[float]]) -> FloatArray:
+    """Return the square matrix of rows of 1, 2, 3 … numbers."""
+    matrix = np.zeros((len(rows), len(rows)))
+    for i, row in enumerate(rows):
+        matrix[i, : i + 1] = row
+    return matrix

@@ -41,6 +41,9 @@ as noise adds: what is far below it is not told apart.
 MOVING_SHARE, MOVING_M_S = 0.1, 0.02
 """A chord has a direction above this share of the chords' RMS speed, and above this speed."""
 
+PEAK_POWER = 8
+"""Of the speed, in the weights of the time of its peak: half as fast counts for next to nothing."""
+
 ARRIVAL_S = 0.25
 """How long a movement takes to arrive."""
 
@@ -62,7 +65,7 @@ QUALITIES: tuple[Feature, ...] = (
     Feature("log_dimensionless_jerk", "", "log (∫ s''^2 dt T^3 / max s^2)"),
     Feature("log_submovements", "", "log (1 + peaks of s, averaged over 0.1 s)"),
     Feature("log_submovement_rate", "log 1/s", "log ((1 + peaks) / T)"),
-    Feature("time_to_peak", "", "time of the highest s, averaged over 0.1 s, / T"),
+    Feature("time_to_peak", "", "mean time, weighed by the 8th power of s over 0.1 s, / T"),
     Feature("log_peak_speed", "log m/s", "log max s"),
     Feature("log_rms_speed", "log m/s", "log rms s"),
     Feature("log_peak_acceleration", "log m/s^2", "log of the 98th percentile of s'"),
@@ -109,14 +112,12 @@ def movement_qualities(motion: RigidMotion) -> FloatArray:
 def qualities_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
     """Do what `movement_qualities` does, in steps."""
     turning_rad = _turning_rad(motion.position_m, motion.step_s)
-    yield
     of_path = _of_path(motion, turning_rad)
     yield
     speed = body_speed(motion)
     smoothness = spectral_arc_length(speed, motion.step_s)
     yield
-    of_speed = _of_speed(motion, speed)
-    yield
+    of_speed = yield from _of_speed(motion, speed)
     values = {"spectral_arc_length": smoothness, **of_path, **of_speed}
     return np.array([values[quality.name] for quality in QUALITIES])
 
@@ -154,8 +155,8 @@ def _of_path(motion: RigidMotion, turning_rad: float) -> dict[str, float]:
     )
 
 
-def _of_speed(motion: RigidMotion, speed: FloatArray) -> dict[str, float]:
-    """Return the qualities of the body's speed and of its derivatives, but for the spectrum's."""
+def _of_speed(motion: RigidMotion, speed: FloatArray) -> Steps[dict[str, float]]:
+    """Return the qualities of the body's speed and its derivatives but the spectrum's, in steps."""
     step_s = motion.step_s
     duration_s = step_s * len(motion)
     reach = round(0.5 * CHORD_S / step_s)
@@ -169,6 +170,7 @@ def _of_speed(motion: RigidMotion, speed: FloatArray) -> dict[str, float]:
     jerk = body_rate(motion.jerk_m_s3, motion.angular_jerk_rad_s3)
     rms_speed, rms_jerk = max(_rms(speed), 1e-4), max(_rms(jerk), 1e-4)
     rms_acceleration = _rms(acceleration)
+    yield
     in_order = np.sort(speed)
     mean_speed, peak = max(float(speed.mean()), 1e-4), max(float(in_order[-1]), 1e-4)
     low, high = _percentile(in_order, 0.1), _percentile(in_order, 0.9)
@@ -181,7 +183,7 @@ def _of_speed(motion: RigidMotion, speed: FloatArray) -> dict[str, float]:
     peaks = 1 + int(np.count_nonzero(is_peak))
     arriving = acceleration[-max(round(ARRIVAL_S / step_s), 1) :]
     return {
-        "time_to_peak": float(np.argmax(even)) / (len(even) - 1),
+        "time_to_peak": _time_to_peak(even),
         "slow_share": float(np.searchsorted(in_order, SLOW_SHARE * peak)) / len(speed),
         **_logs(
             log_dimensionless_jerk=rms_jerk**2 * duration_s**4 / peak**2,
@@ -222,6 +224,16 @@ def _turning_rad(position: FloatArray, step_s: float) -> float:
     cosine = np.divide(product, lengths, out=np.ones_like(product), where=moving)
     per_s = float(np.arccos(np.clip(cosine, -1.0, 1.0)).mean()) / (k * step_s)
     return per_s * step_s * len(position)
+
+
+def _time_to_peak(speed: FloatArray) -> float:
+    """Return when a speed is highest, as a share of the time.
+
+    The time of the highest sample would jump where two peaks are nearly as high, as in a run.
+    """
+    weight = (speed / max(float(speed.max()), 1e-12)) ** PEAK_POWER
+    total = max(float(weight.sum()), 1e-12)
+    return float(weight @ np.arange(len(speed))) / total / (len(speed) - 1)
 
 
 def _averaged(signal: FloatArray, reach: int) -> FloatArray:

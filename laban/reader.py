@@ -13,9 +13,14 @@ from laban.effort import Effort
 from laban.linear import Linear, Softmax
 from laban.motion import FloatArray
 from laban.own import OwnMeasure
+from laban.size import Sizes, resized
+from laban.steps import Steps, finished
 
 SUREST = 0.995
 """No reading is surer than this: so much has not been tried."""
+
+FADING = 2.0
+"""Power of the distance by which a reading falls where nothing was learned."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,6 +33,9 @@ class Entries:
     lowest, highest : (m,) what training has shown; beyond, a value counts as the end.
     centre, scale : (m,) what is taken off a value, and what the rest is divided by.
     pairs : (p, 2) of the m: whose products are looked at as well.
+    unlike : (m, m) lower triangular: times this, standardized values of takes as they were
+        learned from are independent and of variance 1 (half of their covariance taken as diagonal).
+    sizes : at which movements are looked at.
     typical : (m,) of a person who is not known; None where values are not read against anybody.
     """
 
@@ -37,18 +45,35 @@ class Entries:
     centre: FloatArray
     scale: FloatArray
     pairs: NDArray[np.int64]
+    unlike: FloatArray
+    sizes: Sizes
     typical: FloatArray | None = None
 
-    def of(self, description: FloatArray, own: OwnMeasure | None = None) -> FloatArray:
-        """Return entries and products ``(m + p,)`` of a description, or ``(n, m + p)`` of n.
+    def values(self, description: FloatArray, own: OwnMeasure | None = None) -> FloatArray:
+        """Return the entries ``(m,)`` of a description, or ``(n, m)`` of n, at the usual size.
 
         They are read against somebody's own takes if these entries are so.
         """
-        seen = description[..., self.columns]
-        if self.typical is not None:
-            assert own is not None
-            seen = seen - own.of(self.columns).beside(self.typical)
-        return self.seen(seen)
+        return finished(self.values_in_steps(description, own))
+
+    def values_in_steps(
+        self, description: FloatArray, own: OwnMeasure | None = None
+    ) -> Steps[FloatArray]:
+        """Do what `values` does, in steps."""
+        if self.typical is None:
+            size = yield from self.sizes.in_steps(description)
+            return resized(description, -self.sizes.beyond(size))[..., self.columns]
+        assert own is not None
+        size = yield from self.sizes.in_steps(own.mean)
+        mean = resized(own.mean, -size)[self.columns]
+        yield
+        values = resized(description, np.broadcast_to(-size, description.shape[:-1]))
+        return values[..., self.columns] - OwnMeasure(mean, own.takes).beside(self.typical)
+
+    def distance(self, values: FloatArray) -> FloatArray:
+        """Return how unlike what training has shown values ``(…, m)`` are: Mahalanobis, RMS."""
+        apart = ((values - self.centre) / self.scale) @ self.unlike
+        return np.asarray(np.sqrt(np.mean(apart**2, axis=-1)))
 
     def seen(self, values: FloatArray) -> FloatArray:
         """Return entries and products of the values ``(…, m)`` of these columns."""
@@ -96,28 +121,55 @@ class Reader:
     ----------
     entries : what is looked at.
     axes : by name.
+    reach : the distance (`Entries.distance`) to which people who were left out came, 19 of 20.
     states : of Time and Weight together; None where too few takes had a pole on both.
     """
 
     entries: Entries
     axes: Mapping[str, AxisReader]
+    reach: float
     states: StateReader | None = None
 
     def effort(self, description: FloatArray, own: OwnMeasure | None = None) -> Effort:
         """Return the Effort of a description ``(132,)``."""
-        seen = self.entries.of(description, own)
+        return finished(self.effort_in_steps(description, own))
+
+    def effort_in_steps(
+        self, description: FloatArray, own: OwnMeasure | None = None
+    ) -> Steps[Effort]:
+        """Do what `effort` does, in steps."""
+        values = yield from self.entries.values_in_steps(description, own)
+        yield
+        known = self.known(values)
+        seen = self.entries.seen(values)
         return Effort(
             **{
-                axis: reading_of(float(part.classifier.log_odds(seen)))
+                axis: known * reading_of(float(part.classifier.log_odds(seen)))
                 for axis, part in self.axes.items()
             }
         )
+
+    def known(self, values: FloatArray) -> float:
+        """Return how far values ``(m,)`` are of a kind that was learned from, in (0, 1].
+
+        A movement of that kind is read as it was learned; of another, nothing is known, and either
+        pole is as likely.
+        """
+        return float(known_at(self.entries.distance(values), self.reach))
 
     def chances(self, description: FloatArray, own: OwnMeasure | None = None) -> FloatArray | None:
         """Return the chance of each joint state ``(4,)``; None where none are known."""
         if self.states is None:
             return None
-        return self.states.classifier.chances(self.entries.of(description, own))
+        values = self.entries.values(description, own)
+        known = self.known(values)
+        chances = self.states.classifier.chances(self.entries.seen(values))
+        return known * chances + (1.0 - known) / len(chances)
+
+
+def known_at(distance: FloatArray, reach: float) -> FloatArray:
+    """Return how far what lies at a distance is of a kind that was learned from."""
+    return np.asarray((reach / np.maximum(distance, reach)) ** FADING)
 
 
 def reading_of(log_odds: float) -> float:

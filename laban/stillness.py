@@ -1,4 +1,4 @@
-"""Stillness: whether there is movement to read, and where it begins and ends."""
+"""Stillness: whether there is movement to read, where it begins and ends, and where it rests."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from laban.body import body_speed
+from laban.body import BODY_RADIUS_M, body_speed
 from laban.features import MIN_SAMPLES, SLOW_M_S
 from laban.motion import RigidMotion
 
@@ -18,6 +18,9 @@ STILL_M_S = 0.005
 
 REST_RAD_S = 0.1
 """A body that turns no faster and moves no faster than `SLOW_M_S` (RMS) is at rest."""
+
+REST_S = 0.4
+"""So long a rest parts two movements; within one, a hand that is held back stops for less."""
 
 
 def is_readable(motion: RigidMotion) -> bool:
@@ -47,3 +50,25 @@ def without_still_ends(motion: RigidMotion) -> RigidMotion:
     if not len(where):
         return motion
     return motion.between(float(motion.time_s[where[0]]), float(motion.time_s[where[-1]]))
+
+
+def movements(motion: RigidMotion) -> list[RigidMotion]:
+    """Return the movements between rests: where a body is at rest for `REST_S` or longer.
+
+    None are empty; of a body that never moves there is none.
+    """
+    if len(motion) < MIN_SAMPLES:
+        return []
+    speed = body_speed(motion)
+    quick = float(np.quantile(speed, 0.95))
+    at_rest = math.hypot(SLOW_M_S, BODY_RADIUS_M * REST_RAD_S)
+    moving = np.flatnonzero(speed > max(STILL_SHARE * quick, at_rest))
+    if not len(moving):
+        return []
+    parted = np.flatnonzero(np.diff(moving) * motion.step_s >= REST_S)
+    first = moving[np.concatenate([[0], parted + 1])]
+    last = moving[np.concatenate([parted, [len(moving) - 1]])]
+    time_s = motion.time_s
+    return [
+        motion.between(float(time_s[i]), float(time_s[j])) for i, j in zip(first, last, strict=True)
+    ]

@@ -21,7 +21,8 @@ from laban.linear import Linear, Softmax, fit_softmax
 from laban.model import POLES, STATES, EffortModel, Taught
 from laban.motion import FloatArray
 from laban.own import OwnMeasure
-from laban.reader import AxisReader, Entries, Reader, StateReader, reading_of
+from laban.reader import AxisReader, Entries, Reader, StateReader, known_at, reading_of
+from laban.size import DIAGONAL, Sizes, resized, sizes_of
 
 IntArray = NDArray[np.int64]
 
@@ -33,6 +34,9 @@ SIGNIFICANT_DIGITS = 6
 
 MOST_SPREADS = 3.0
 """Values count up to so many standard deviations from the mean: products would go on growing."""
+
+REACHED = 0.95
+"""Share of the takes of people who were left out that is within a reader's reach."""
 
 STATES_RIDGE = 10.0
 """Of the joint states' own weights."""
@@ -155,21 +159,6 @@ def check_labels(meant: Mapping[str, FloatArray], performers: Sequence[str]) -> 
         raise LabanError("labels: expected at least one take with an Effort word, got none")
 
 
-def typical_of(descriptions: FloatArray, whose: IntArray) -> FloatArray:
-    """Return the mean over people of each one's mean description."""
-    return np.mean([descriptions[whose == p].mean(axis=0) for p in np.unique(whose)], axis=0)
-
-
-def against_own(descriptions: FloatArray, whose: IntArray, typical: FloatArray) -> FloatArray:
-    """Return descriptions less what each performer's takes, all of them, are read against."""
-    relative = np.empty_like(descriptions)
-    for person in np.unique(whose):
-        mine = whose == person
-        own = OwnMeasure(descriptions[mine].mean(axis=0), int(mine.sum()))
-        relative[mine] = descriptions[mine] - own.beside(typical)
-    return relative
-
-
 def _trained(
     descriptions: FloatArray,
     labelled: Mapping[str, FloatArray],
@@ -180,18 +169,23 @@ def _trained(
     """Return what all takes teach, and how well that does on performers that were left out."""
     odds = {axis: np.full(len(whose), np.nan) for axis in labelled}
     scores = np.zeros((len(whose), len(STATES)))
+    distance = np.zeros(len(whose))
     for out in folds(whose):
         entries, learned, states = _learned(descriptions, labelled, state, whose, against, ~out)
-        seen = seen_in(entries, descriptions[out], whose[out])
+        values = values_in(entries, descriptions[out], whose[out])
+        distance[out] = entries.distance(values)
+        seen = entries.seen(values)
         for axis, committee in learned.items():
             odds[axis][out] = committee.classifier.log_odds(seen)
         if states is not None:
             scores[out] = states.scores(seen)
+    reach = _short(float(np.quantile(distance, REACHED)))
+    within = known_at(distance, reach)
     reports = {}
     for axis, goal in labelled.items():
         known = np.isfinite(goal)
         reading = np.array([reading_of(o) for o in odds[axis][known].tolist()])
-        reports[axis] = AxisReport(reading, goal[known])
+        reports[axis] = AxisReport(within[known] * reading, goal[known])
 
     entries, learned, states = _learned(
         descriptions, labelled, state, whose, against, np.ones(len(whose), bool)
@@ -208,7 +202,7 @@ def _trained(
         sure = _sureness(scores[told], state[told])
         right = float(np.mean(scores[told].argmax(axis=1) == state[told]))
         reader = StateReader(Softmax(sure * states.weight, sure * states.bias), _short(right))
-    return _short_reader(Reader(entries, axes, reader)), reports
+    return _short_reader(Reader(entries, axes, reach, reader)), reports
 
 
 def _learned(
@@ -221,8 +215,7 @@ def _learned(
 ) -> tuple[Entries, dict[str, Committee], Softmax | None]:
     """Learn from some takes: what is looked at, each axis, and the joint states."""
     descriptions, whose = descriptions[among], whose[among]
-    typical = typical_of(descriptions, whose) if against else None
-    entries = entries_of(descriptions, whose, typical)
+    entries = entries_of(descriptions, whose, against)
     seen = seen_in(entries, descriptions, whose)
     axes = {}
     for axis, labels in labelled.items():
@@ -239,35 +232,64 @@ def _learned(
     return entries, axes, _one_decision(own, axes["time"].classifier, axes["weight"].classifier)
 
 
-def entries_of(descriptions: FloatArray, whose: IntArray, typical: FloatArray | None) -> Entries:
+def entries_of(descriptions: FloatArray, whose: IntArray, against: bool) -> Entries:
     """Return what is looked at of descriptions ``(n, 132)``, on the scale of these takes.
 
-    ``typical (132,)`` is the description of a person who is not known, where takes are read against
-    the performer's own; ``whose (n,)`` says which these are.
+    ``against`` the performer's own takes or not; ``whose (n,)`` says which these are.
     """
-    seen = descriptions if typical is None else against_own(descriptions, whose, typical)
-    seen = seen[:, _COLUMNS]
-    centre, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-9
-    return Entries(
+    sizes = sizes_of(descriptions, _COLUMNS)
+    m = len(_COLUMNS)
+    entries = Entries(
         columns=_COLUMNS,
+        lowest=np.full(m, -np.inf),
+        highest=np.full(m, np.inf),
+        centre=np.zeros(m),
+        scale=np.ones(m),
+        pairs=PAIRS,
+        unlike=np.eye(m),
+        sizes=sizes,
+        typical=np.zeros(m) if against else None,
+    )
+    if against:
+        entries = replace(entries, typical=_typical_of(sizes, descriptions, whose))
+    seen = values_in(entries, descriptions, whose)
+    centre, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-9
+    standard = (seen - centre) / scale
+    covariance = (1.0 - DIAGONAL) * (standard.T @ standard) / len(seen) + DIAGONAL * np.eye(m)
+    return replace(
+        entries,
         lowest=np.maximum(seen.min(axis=0), centre - MOST_SPREADS * scale),
         highest=np.minimum(seen.max(axis=0), centre + MOST_SPREADS * scale),
         centre=centre,
         scale=scale,
-        pairs=PAIRS,
-        typical=None if typical is None else typical[_COLUMNS],
+        unlike=np.linalg.cholesky(np.linalg.inv(covariance)),
     )
 
 
-def seen_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
-    """Return entries and products ``(n, COUNT)`` of descriptions ``(n, 132)``.
+def _typical_of(sizes: Sizes, descriptions: FloatArray, whose: IntArray) -> FloatArray:
+    """Return the mean over people of each one's mean description, at the usual size."""
+    means = np.array([descriptions[whose == person].mean(axis=0) for person in np.unique(whose)])
+    return np.asarray(resized(means, -sizes.of(means))[:, sizes.columns].mean(axis=0))
+
+
+def values_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
+    """Return the entries ``(n, m)`` of descriptions ``(n, 132)``.
 
     Against all the performer's takes among them, ``whose (n,)``, if the entries are so.
     """
-    values = descriptions[:, entries.columns]
-    if entries.typical is not None:
-        values = against_own(values, whose, entries.typical)
-    return entries.seen(values)
+    if entries.typical is None:
+        return entries.values(descriptions)
+    values = np.empty((len(descriptions), len(entries.columns)))
+    for person in np.unique(whose):
+        mine = whose == person
+        own = OwnMeasure(descriptions[mine].mean(axis=0), int(mine.sum()))
+        values[mine] = entries.values(descriptions[mine], own)
+    return values
+
+
+def seen_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
+    """Return entries and products ``(n, COUNT)`` of descriptions ``(n, 132)``, as `values_in`."""
+    return entries.seen(values_in(entries, descriptions, whose))
 
 
 def _states(labelled: Mapping[str, FloatArray], whose: IntArray) -> IntArray | None:
@@ -308,25 +330,32 @@ def _rounded_shares(shares: Mapping[str, float]) -> dict[str, float]:
 
 
 def _short_reader(reader: Reader) -> Reader:
-    """Return a reader without what has no weight in it, its numbers of `SIGNIFICANT_DIGITS`."""
+    """Return a reader without products of no weight, its numbers of `SIGNIFICANT_DIGITS`."""
     weights = [part.classifier.weight[None] for part in reader.axes.values()]
     if reader.states is not None:
         weights.append(reader.states.classifier.weight)
     used = np.abs(np.concatenate(weights)).max(axis=0) > 0.0
     m = len(reader.entries.columns)
     pairs = reader.entries.pairs[used[m:]]
-    kept = np.flatnonzero(used[:m] | np.isin(np.arange(m), pairs))
-    both = np.concatenate([kept, m + np.flatnonzero(used[m:])])
+    both = np.concatenate([np.arange(m), m + np.flatnonzero(used[m:])])
     entries, states = reader.entries, reader.states
+    sizes = entries.sizes
     return Reader(
-        Entries(
-            columns=entries.columns[kept],
-            lowest=_rounded(entries.lowest[kept]),
-            highest=_rounded(entries.highest[kept]),
-            centre=_rounded(entries.centre[kept]),
-            scale=_rounded(entries.scale[kept]),
-            pairs=np.searchsorted(kept, pairs),
-            typical=None if entries.typical is None else _rounded(entries.typical[kept]),
+        replace(
+            entries,
+            lowest=_rounded(entries.lowest),
+            highest=_rounded(entries.highest),
+            centre=_rounded(entries.centre),
+            scale=_rounded(entries.scale),
+            pairs=pairs,
+            unlike=_rounded(entries.unlike),
+            sizes=Sizes(
+                sizes.columns,
+                _rounded(sizes.centre),
+                _rounded(sizes.weight),
+                _short(sizes.spread),
+            ),
+            typical=None if entries.typical is None else _rounded(entries.typical),
         ),
         {
             axis: replace(
@@ -337,6 +366,7 @@ def _short_reader(reader: Reader) -> Reader:
             )
             for axis, part in reader.axes.items()
         },
+        reader.reach,
         states
         and replace(
             states,

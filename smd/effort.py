@@ -18,7 +18,7 @@ from laban.effort import LabanError
 from laban.model import NEUTRAL, POLES, effort_of, state_of
 from laban.own import FEWEST_TAKES, own_measure
 from laban.reader import Reader
-from laban.stillness import is_readable
+from laban.stillness import is_readable, movements
 from laban.training import AxisReport, Training, check_labels, train
 from laban.windows import WINDOW_S
 from smd.doodle import Doodle, Recording
@@ -256,17 +256,20 @@ def _meant(where: str, axis: str, word: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What is read of one doodle.
+    """What is read of one movement.
 
     Attributes
     ----------
-    doodle : the one.
-    effort : of it as one movement; nothing where it is too short or too still.
+    device : that was moved.
+    start_s, end_s : of the movement; of the whole doodle, where that is too short or too still.
+    effort : of the movement; nothing where it is too short or too still.
     state : words of the joint state of Time and Weight, and its chance; None as well where the
         model knows none.
     """
 
-    doodle: Doodle
+    device: str
+    start_s: float
+    end_s: float
     effort: Effort
     state: tuple[str, str, float] | None
 
@@ -274,14 +277,24 @@ class Reading:
 def recording_efforts(
     recording: Recording, model: EffortModel, own: OwnMeasure | None = None
 ) -> Iterator[Reading]:
-    """Yield what is read of each doodle of a recording."""
+    """Yield what is read of each movement of a recording, which rests part.
+
+    Of a doodle with nothing to read there is one reading, without Effort.
+    """
     for doodle in recording.doodles:
-        motion = _readable_motion(doodle)
-        if motion is None:
-            yield Reading(doodle, Effort(), None)
-        else:
+        found = _readable_movements(doodle)
+        for motion in found:
             described = describe(motion)
-            yield Reading(doodle, effort_of(described, model, own), state_of(described, model, own))
+            yield Reading(
+                doodle.device,
+                float(motion.time_s[0]),
+                float(motion.time_s[-1]),
+                effort_of(described, model, own),
+                state_of(described, model, own),
+            )
+        if not found:
+            start_s, end_s = float(doodle.time_s[0]), float(doodle.time_s[-1])
+            yield Reading(doodle.device, start_s, end_s, Effort(), None)
 
 
 def performers_measure(recordings: Iterable[Recording]) -> OwnMeasure:
@@ -290,25 +303,25 @@ def performers_measure(recordings: Iterable[Recording]) -> OwnMeasure:
     Raises
     ------
     LabanError
-        If fewer than `laban.own.FEWEST_TAKES` doodles of them can be read.
+        If fewer than `laban.own.FEWEST_TAKES` movements of them can be read.
     """
-    each = [_readable_motion(doodle) for recording in recordings for doodle in recording.doodles]
-    motions = [motion for motion in each if motion is not None]
-    measure = own_measure(motions)
+    doodles = [doodle for recording in recordings for doodle in recording.doodles]
+    found = [motion for doodle in doodles for motion in _readable_movements(doodle)]
+    measure = own_measure(found)
     if measure is None:
         raise LabanError(
-            f"performer: expected at least {FEWEST_TAKES} takes that move, got {len(motions)}"
+            f"performer: expected at least {FEWEST_TAKES} takes that move, got {len(found)}"
         )
     return measure
 
 
-def _readable_motion(doodle: Doodle) -> RigidMotion | None:
-    """Return a doodle's motion, or None where it is too short or too still to read."""
+def _readable_movements(doodle: Doodle) -> list[RigidMotion]:
+    """Return a doodle's movements; none where it is too short or too still to read."""
     try:
         motion = smooth(doodle)
     except DoodleError:
-        return None
-    return motion if is_readable(motion) else None
+        return []
+    return [each for each in movements(motion) if is_readable(each)]
 
 
 def report_lines(training: Training) -> list[str]:

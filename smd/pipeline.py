@@ -190,25 +190,18 @@ def _without_examples(cast: Cast) -> Iterator[str]:
 def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> Iterator[Phrase]:
     """Yield what one performer says; times to the millisecond, as a Score's file keeps them.
 
-    Effort is read against all that the performer played.
+    Each phrase's Effort is read of the phrase alone, as it is while somebody plays: what else they
+    play is what they mean as well as how they move anyway.
     """
-    import numpy as np
-
-    from laban import Effort
-    from laban.description import describe
-    from laban.model import effort_of
-    from laban.own import measure_of
-    from laban.stillness import is_readable
+    from laban import read_effort
     from smd.score import Alternative, Phrase
 
-    described = {i: describe(motion) for i, (_, motion) in enumerate(played) if is_readable(motion)}
-    own = measure_of(np.array(list(described.values())))
-    for i, (span, _) in enumerate(played):
+    for span, motion in played:
         yield Phrase(
             action=span.action,
             start_s=round(span.start_s, 3),
             end_s=round(span.end_s, 3),
-            effort=effort_of(described[i], model, own) if i in described else Effort(),
+            effort=read_effort(motion, model),
             confidence=span.confidence,
             alternatives=tuple(Alternative(*other) for other in span.alternatives),
         )

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import fields
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from laban import Effort, EffortModel, RigidMotion
-from laban.effort import AXES
-from laban.windows import WINDOW_S, EffortStream
+from laban import Effort, EffortModel, RigidMotion, read_effort
 from smd.capture.source import Row
 from smd.errors import DoodleError
 from smd.formats.dropouts import LONGEST_BRIDGE_S
@@ -22,8 +21,8 @@ from smd.recognition import Recognizer
 from smd.recognition.acceptance import Intent
 from smd.recognition.recognizer import Span
 
-MOST_WINDOWS = 256
-"""Windows of Effort that are kept for a phrase that is not decided yet: a minute of them."""
+KEPT_S = 60.0
+"""So much movement is kept for a phrase that is not decided yet."""
 
 
 class Decided(NamedTuple):
@@ -33,7 +32,7 @@ class Decided(NamedTuple):
     ----------
     device : its name.
     span : the action, and when.
-    effort : of the windows that lie in it, on average.
+    effort : of the span, read as `smd.parse` reads it when all is over.
     """
 
     device: str
@@ -107,19 +106,15 @@ class LiveRecognition:
 
 
 class _Follower:
-    """One device, from one loss to the next.
-
-    Effort is read one sample after the stream has looked, so that a phrase does not wait for it.
-    """
+    """One device, from one loss to the next."""
 
     def __init__(
         self, device: str, recognizer: Recognizer, intent: Intent, model: EffortModel
     ) -> None:
         self._device = device
-        self._unread: list[RigidMotion] = []
-        self._spans = recognizer.stream(self._unread.append, intent=recognizer.intent or intent)
-        self._efforts = EffortStream(model)
-        self._windows: deque[tuple[float, Effort]] = deque(maxlen=MOST_WINDOWS)
+        self._model = model
+        self._spans = recognizer.stream(self._keep, intent=recognizer.intent or intent)
+        self._smoothed: deque[RigidMotion] = deque()
         self.last_s = -np.inf
 
     def push(
@@ -131,35 +126,32 @@ class _Follower:
     ) -> list[Decided]:
         """Take one sample; return the phrases that it decides."""
         self.last_s = time_s
-        self._read()
         spans = self._spans.push(time_s, position_m, orientation_xyzw, drawing)
         return [self._decided(span) for span in spans]
 
     def finish(self) -> list[Decided]:
         """Return the phrases that were not decided yet."""
-        spans = self._spans.finish()
-        self._read()
-        self._windows.extend(self._efforts.finish())
-        return [self._decided(span) for span in spans]
+        return [self._decided(span) for span in self._spans.finish()]
 
-    def _read(self) -> None:
-        """Read the Effort of the windows that new smoothed motion completes."""
-        for motion in self._unread:
-            self._windows.extend(self._efforts.push(motion))
-        self._unread.clear()
+    def _keep(self, motion: RigidMotion) -> None:
+        """Keep smoothed motion for phrases to come, and let go what is too long ago."""
+        if not len(motion):
+            return
+        self._smoothed.append(motion)
+        while self._smoothed[0].time_s[-1] < motion.time_s[-1] - KEPT_S:
+            self._smoothed.popleft()
 
     def _decided(self, span: Span) -> Decided:
-        """Return a span with the Effort of the windows in it, or of the nearest one."""
-        middle_s = 0.5 * (span.start_s + span.end_s)
-        half_s = max(0.5 * (span.end_s - span.start_s) - 0.5 * WINDOW_S, 0.0)
-        by_distance = sorted(self._windows, key=lambda window: abs(window[0] - middle_s))
-        inside = [each for each in by_distance if abs(each[0] - middle_s) <= half_s]
-        return Decided(self._device, span, _mean([e for _, e in inside or by_distance[:1]]))
-
-
-def _mean(efforts: list[Effort]) -> Effort:
-    """Return the mean of each axis over the windows in which it was read."""
-    values = {
-        axis: [value for e in efforts if (value := getattr(e, axis)) is not None] for axis in AXES
-    }
-    return Effort(**{axis: float(np.mean(read)) for axis, read in values.items() if read})
+        """Return a span with its Effort."""
+        parts = [
+            motion
+            for motion in self._smoothed
+            if motion.time_s[-1] >= span.start_s - 1e-9 and motion.time_s[0] <= span.end_s + 1e-9
+        ]
+        if not parts:
+            return Decided(self._device, span, Effort())
+        whole = RigidMotion(
+            *(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(parts[0]))
+        )
+        effort = read_effort(whole.between(span.start_s, span.end_s), self._model)
+        return Decided(self._device, span, effort)

@@ -49,7 +49,7 @@ def classify(
     quaternion: reading.Quaternion = None,
     mount: reading.Mount = None,
 ) -> None:
-    """Read the Effort of recordings, each doodle taken as one movement."""
+    """Read the Effort of recordings, movement by movement: a rest of 0.4 s parts two."""
     from laban import AXES, load_effort_model
     from laban.model import confidence
     from smd.effort import performers_measure, recording_efforts
@@ -65,14 +65,14 @@ def classify(
 
     def one(_: int, file: Path) -> None:
         for read in recording_efforts(options.read(file), reader, own):
-            doodle, state = read.doodle, read.state
+            device, state = read.device, read.state
             values = {axis: getattr(read.effort, axis) for axis in AXES}
             known = {axis: round(v, 3) for axis, v in values.items() if v is not None}
-            start_s, end_s = round(doodle.time_s[0], 3), round(doodle.time_s[-1], 3)
+            start_s, end_s = round(read.start_s, 3), round(read.end_s, 3)
             rows.append(
                 {
                     "file": str(file),
-                    "device": doodle.device,
+                    "device": device,
                     "start_s": start_s,
                     "end_s": end_s,
                     "effort": known,
@@ -86,7 +86,7 @@ def classify(
                 shown = "  ".join(f"{axis} {value:+.2f}" for axis, value in known.items())
                 if state is not None:
                     shown += f"  {state[0]} and {state[1]} ({state[2]:.2f})"
-                where = f"{file}  {doodle.device} {start_s:.2f} – {end_s:.2f} s"
+                where = f"{file}  {device} {start_s:.2f} – {end_s:.2f} s"
                 typer.echo(f"{where}  {shown or 'too short or too still to read'}")
 
     try:

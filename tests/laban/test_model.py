@@ -19,6 +19,13 @@ def shipped():
     return load_effort_model()
 
 
+@pytest.fixture(scope="module")
+def unmuted(shipped):
+    """The shipped model, as sure of movements unlike any that it has learned from as of others."""
+    alone, own = (replace(reader, reach=1e6) for reader in (shipped.alone, shipped.own))
+    return replace(shipped, alone=alone, own=own)
+
+
 def test_the_shipped_model_reads_all_axes_and_joint_states(shipped):
     assert tuple(shipped.axes) == AXES
     assert shipped.seed is not None
@@ -27,14 +34,14 @@ def test_the_shipped_model_reads_all_axes_and_joint_states(shipped):
         assert set(reader.axes) == set(AXES)
 
 
-def test_somebodys_own_takes_are_read_about_their_middle(shipped, random_motion):
+def test_somebodys_own_takes_are_read_about_their_middle(unmuted, random_motion):
     """Who moves quickly anyway is not sudden by it, nor who moves slowly sustained."""
     alone, against = [], []
     for pace in (0.4, 3.0):
         motions = [random_motion(np.random.default_rng(s), pace=pace) for s in range(20)]
         own = own_measure(motions)
-        alone.append(np.mean([read_effort(motion, shipped).time for motion in motions]))
-        against.append(np.mean([read_effort(motion, shipped, own).time for motion in motions]))
+        alone.append(np.mean([read_effort(motion, unmuted).time for motion in motions]))
+        against.append(np.mean([read_effort(motion, unmuted, own).time for motion in motions]))
     assert alone[1] - alone[0] > 0.5
     assert against[1] - against[0] < 0.5 * (alone[1] - alone[0])
 
@@ -57,9 +64,14 @@ def test_a_model_is_the_same_after_saving_and_loading(shipped, tmp_path):
     again = load_effort_model(tmp_path / "model.json")
     assert effort_model_to_json(again) == effort_model_to_json(shipped)
     for field in fields(Entries):
-        np.testing.assert_array_equal(
-            getattr(again.own.entries, field.name), getattr(shipped.own.entries, field.name)
-        )
+        if field.name != "sizes":
+            np.testing.assert_array_equal(
+                getattr(again.own.entries, field.name), getattr(shipped.own.entries, field.name)
+            )
+    ours, theirs = again.own.entries.sizes, shipped.own.entries.sizes
+    np.testing.assert_array_equal(ours.weight, theirs.weight)
+    np.testing.assert_array_equal(ours.centre, theirs.centre)
+    assert (ours.spread, again.own.reach) == (theirs.spread, shipped.own.reach)
     for axis, part in shipped.own.axes.items():
         np.testing.assert_array_equal(
             again.own.axes[axis].classifier.weight, part.classifier.weight
@@ -82,11 +94,12 @@ def test_axes_that_were_not_trained_are_not_read(shipped, random_motion):
 def test_products_are_of_the_entries_as_they_are_seen(shipped, random_motion):
     description = describe(random_motion(np.random.default_rng(0)))
     entries = shipped.alone.entries
-    found = entries.of(description)
+    values = entries.values(description)
+    found = entries.seen(values)
     z = [
-        (min(max(description[c], low), high) - centre) / scale
-        for c, low, high, centre, scale in zip(
-            entries.columns,
+        (min(max(value, low), high) - centre) / scale
+        for value, low, high, centre, scale in zip(
+            values,
             entries.lowest,
             entries.highest,
             entries.centre,
@@ -96,19 +109,22 @@ def test_products_are_of_the_entries_as_they_are_seen(shipped, random_motion):
     ]
     np.testing.assert_allclose(found, [*z, *(z[i] * z[j] for i, j in entries.pairs)])
     many = np.stack([description, 2.0 * description])
-    np.testing.assert_allclose(entries.of(many)[0], found)
+    np.testing.assert_allclose(entries.seen(entries.values(many))[0], found)
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_the_same_path_played_faster_never_reads_less_sudden(seed, shipped, random_motion):
-    readings = [
-        read_effort(
-            random_motion(np.random.default_rng(seed), size_m=0.02, pace=pace), shipped
-        ).time
-        for pace in (0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0)
-    ]
-    assert (np.diff(readings) >= -0.05).all()  # at the poles hardly anything is left to tell
-    assert readings[-1] - readings[0] > 0.5
+def test_the_same_path_played_faster_never_reads_less_sudden(unmuted, random_motion):
+    rises = []
+    for seed in range(10):
+        readings = [
+            read_effort(
+                random_motion(np.random.default_rng(seed), size_m=0.02, pace=pace), unmuted
+            ).time
+            for pace in (0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0)
+        ]
+        assert (np.diff(readings) >= -0.05).all()  # at the poles hardly anything is left to tell
+        rises.append(readings[-1] - readings[0])
+    assert min(rises) > 0.4
+    assert np.median(rises) > 1.5  # most go from one pole to the other
 
 
 @pytest.mark.parametrize("n", [0, 1, 3])
@@ -163,8 +179,8 @@ STATES = ("alone", "states")
     ("path", "value", "said"),
     [
         (("schema",), "other", r"schema: expected 'laban.effort_model', got 'other'"),
-        (("version",), 5, "version: expected 4, got 5, a newer version's$"),
-        (("version",), 3, "version: expected 4, got 3, an older version's; train it again$"),
+        (("version",), 6, "version: expected 5, got 6, a newer version's$"),
+        (("version",), 4, "version: expected 5, got 4, an older version's; train it again$"),
         (("version",), True, "version: got true or false"),
         (("seed",), "x", "seed: got a string"),
         (("trained_on",), None, "trained_on: got null"),
@@ -180,6 +196,10 @@ STATES = ("alone", "states")
         ((*ENTRY, "range"), [2.0, 1.0], r"entries\[0\].range: expected low, high"),
         ((*ENTRY, "range"), [2.0], r"entries\[0\].range: expected 2 numbers"),
         ((*ENTRY, "scale"), 0.0, r"entries\[0\].scale: expected a number from 0"),
+        ((*ENTRY, "unlike"), [1.0, 2.0], r"entries\[0\].unlike: expected 1 numbers"),
+        ((*ENTRY, "size"), "x", r"entries\[0\].size: got a string"),
+        (("alone", "reach"), 0.0, "alone.reach: expected a number from 0"),
+        (("own", "size_spread"), -1.0, "own.size_spread: expected a number from 0"),
         ((*ENTRY, "states"), [1, 2, 3, "x"], "states: expected 4 numbers"),
         ((*OWN, "typical"), None, r"own.entries\[0\].typical: got null"),
         (("alone", "products", 0, "of"), ["log_path"], r"products\[0\].of: expected the names"),

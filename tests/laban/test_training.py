@@ -8,7 +8,8 @@ from laban.description import DESCRIPTION_NAMES, FAMILIES
 from laban.model import effort_of
 from laban.model_file import effort_model_to_json
 from laban.own import OwnMeasure
-from laban.training import against_own, train, typical_of
+from laban.size import resized
+from laban.training import entries_of, train, values_in
 
 D = len(DESCRIPTION_NAMES)
 SPEED = DESCRIPTION_NAMES.index("log_rms_speed")
@@ -120,13 +121,17 @@ def test_training_twice_gives_the_same_model():
     assert effort_model_to_json(models[0]) == effort_model_to_json(models[1])
 
 
-def test_the_unit_of_an_entry_does_not_matter():
+def test_the_unit_of_an_entry_that_has_no_size_does_not_matter():
     described, meant, performers = crowd()
-    described[:, SPEED] += 2.0 * meant
-    scale, shift = np.random.default_rng(1).uniform(0.1, 10.0, (2, D))
+    named = ("log_roundness", "log_flatness", "slow_share", "spectral_arc_length", "time_to_peak")
+    columns = [DESCRIPTION_NAMES.index(name) for name in named]
+    described[:, ROUND] += 2.0 * meant
+    scale, shift = np.random.default_rng(1).uniform(0.1, 10.0, (2, len(columns)))
+    other = described.copy()
+    other[:, columns] = scale * described[:, columns] + shift
     a, b = (
         train(rows, {"time": meant}, performers, trained_on="").alone["time"].reading
-        for rows in (described, scale * described + shift)
+        for rows in (described, other)
     )
     np.testing.assert_allclose(a, b, atol=1e-5)
 
@@ -134,13 +139,39 @@ def test_the_unit_of_an_entry_does_not_matter():
 def test_own_takes_are_read_against_themselves_and_a_little_of_a_typical_person():
     described, _, performers = crowd(people=3)
     whose = np.unique(performers, return_inverse=True)[1]
-    typical = typical_of(described, whose)
-    np.testing.assert_allclose(typical, described.mean(axis=0))
+    entries = entries_of(described, whose, against=True)
     mine = described[whose == 1]
-    own = OwnMeasure(mine.mean(axis=0), 6)
-    expected = mine - (6.0 * mine.mean(axis=0) + 2.0 * typical) / 8.0
-    np.testing.assert_allclose(against_own(described, whose, typical)[whose == 1], expected)
-    np.testing.assert_allclose(mine - own.beside(typical), expected)
+    mean = mine.mean(axis=0)
+    size = entries.sizes.of(mean)
+    as_usual = resized(mine, np.full(6, -size))[:, entries.columns]
+    middle = resized(mean, -size)[entries.columns]
+    expected = as_usual - (6.0 * middle + 2.0 * entries.typical) / 8.0
+    np.testing.assert_allclose(values_in(entries, described, whose)[whose == 1], expected)
+    np.testing.assert_allclose(entries.values(mine, OwnMeasure(mean, 6)), expected)
+
+
+def test_what_is_unlike_all_that_was_learned_from_is_muted_and_keeps_its_sign():
+    described, meant, performers = crowd()
+    described[:, SPEED] += 4.0 * meant
+    model = train(described, {"time": meant}, performers, trained_on="test").model
+    assert model.alone.known(model.alone.entries.values(described[0])) > 0.5
+    odd = 3.0 * np.random.default_rng(1).normal(size=D)
+    readings = []
+    for far in (0.0, 1.0, 3.0, 9.0):
+        described_so = described[1] + far * np.where(np.arange(D) == SPEED, 0.0, odd)
+        readings.append(effort_of(described_so, model).time)
+    assert readings[0] > 0.5
+    assert (np.diff(np.abs(readings)) < 0.0).all()
+    assert abs(readings[-1]) < 0.1
+
+
+def test_people_who_were_left_out_are_within_reach_in_19_of_20_takes():
+    described, meant, performers = crowd(people=20, takes=20)
+    model = train(described, {"time": meant}, performers, trained_on="test").model
+    others = crowd(1, people=20, takes=20)[0]
+    for reader in (model.alone,):
+        known = np.array([reader.known(reader.entries.values(row)) for row in others])
+        assert np.mean(known < 1.0) == pytest.approx(0.05, abs=0.04)
 
 
 def test_too_few_performers_of_a_pole_are_said_so():

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from actions_library.folder import load_library
-from laban import load_effort_model
-from laban.windows import effort_over_time
+from laban import load_effort_model, read_effort
 from smd.capture.live import LiveRecognition
 from smd.capture.replay import ReplaySource
 from smd.capture.take import rows_of
 from smd.formats import Mount, write_recording
 from smd.recognition import Recognizer
+from smd.recognition.acceptance import Intent
 from smd.smoothing import smooth
 from tests.smd.capture.conftest import played
 
@@ -39,24 +39,24 @@ def frames_of(doodle, serial="LHR-1"):
         yield time_s, {serial: ((*position, *orientation), True)}
 
 
-def test_phrases_are_the_streams_with_the_effort_of_their_windows(recognizer):
+def test_phrases_are_the_streams_each_with_its_effort(recognizer):
     doodle = played("punch", "bow")
     decided = heard(
         LiveRecognition(recognizer, load_effort_model(), {"LHR-1": "left"}), frames_of(doodle)
     )
-    stream = recognizer.stream()
+    stream = recognizer.stream(intent=Intent.DRAWN)
     expected = [
         span for time_s, rows in frames_of(doodle) for span in stream.push(time_s, *split(rows))
     ]
     expected += stream.finish()
     assert [each.span for each in decided] == expected
     assert [each.span.action for each in decided] == ["punch", "bow"]
-    curve = effort_over_time(smooth(doodle), load_effort_model())
+    motion = smooth(doodle)
     for each in decided:
         assert each.device == "left"
-        assert (
-            curve.values[:, 0].min() - 1e-9 <= each.effort.time <= curve.values[:, 0].max() + 1e-9
-        )
+        part = motion.between(each.span.start_s, each.span.end_s)
+        alone = read_effort(part, load_effort_model())
+        assert each.effort.time == pytest.approx(alone.time, abs=1e-6)
 
 
 def split(rows):
