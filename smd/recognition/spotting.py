@@ -354,13 +354,14 @@ class Recognizer:
         prices: RunCosts,
         intent: Intent,
     ) -> list[Stretch]:
-        """Return the stretches that may be an action: without stir, and with their loose ends."""
+        """Return the stretches that may be an action, without stir at their ends."""
         found = [*((one.first, one.last) for one in proposed), *rest_to_rest(prices.is_still)]
         spoken_for = dict.fromkeys(_as_meant(found, runs))
         if intent is Intent.DRAWN:
             return [(*one, False) for one in spoken_for]
         durations_s = self._durations_s[self._verified]
-        dense = dict.fromkeys(_as_meant(dense_stretches(runs, prices.is_still, durations_s), runs))
+        anywhere = dense_stretches(runs, prices.is_still, durations_s)
+        dense = dict.fromkeys(without_stir(anywhere, runs))  # others of them have the loose ends
         return [
             *((*one, False) for one in spoken_for),
             *((*one, True) for one in dense if one not in spoken_for),
