@@ -12,7 +12,7 @@ from smd.recognition.traits import COURSES, MEASURES
 from smd.recognition.verification import TERMS, WEIGHTS, oddness
 
 if TYPE_CHECKING:
-    from smd.recognition.spotting import Match
+    from smd.recognition.matching import Match
 
 FITS, OUTDONE = "would pass by itself", "another action fits better"
 WITHIN = "like its examples, but for the tolerance"

@@ -15,8 +15,9 @@ from smd.recognition.background import weighed
 from smd.recognition.bank import compile_library, distances
 from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import doodle_runs, learn_pattern, without_rest
+from smd.recognition.matching import Match
 from smd.recognition.pattern import Pattern
-from smd.recognition.spotting import Match, Recognizer
+from smd.recognition.spotting import Recognizer
 from smd.recognition.traits import Traits, traits_of
 from smd.smoothing import smooth
 
@@ -64,13 +65,12 @@ class Likeness:
         return self.share(best) <= 1.0 and asked.distance > PLAINLY * best.distance
 
     def share(self, match: Match | None = None) -> float:
-        """Return what a match costs, by default the action's, over what no action may cost.
+        """Return what a match costs, by default the action's, over what it may.
 
         It passes up to 1.
         """
         match = self.ranked[self.place - 1] if match is None else match
-        nothing = next(other for other in self.matches if other.action is None)
-        return match.distance / nothing.distance
+        return match.distance / match.most
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
 import numpy as np
@@ -17,8 +16,7 @@ from smd.recognition.background import weighed
 from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, Costs, RunCosts, run_costs
 from smd.recognition.cutting import best_cut
-from smd.recognition.exemplar import exemplar_of
-from smd.recognition.learning import learn_pattern
+from smd.recognition.matching import Match
 from smd.recognition.proposals import Proposal, explaining, rest_to_rest, without_stir
 from smd.recognition.recognizer import Span, TokenSpotter, with_loose_ends
 from smd.recognition.segmentation import Segment
@@ -27,7 +25,7 @@ from smd.recognition.stretches import are_alike_long, dense_stretches
 from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
-from smd.recognition.traits import traits_of, traits_of_parts
+from smd.recognition.traits import traits_of_parts
 from smd.recognition.verification import GLANCE, TERMS, WRONG, Verification
 from smd.smoothing import smooth
 
@@ -39,7 +37,7 @@ TOGETHER = 1024
 """Stretches whose courses are held in memory at a time."""
 
 WORTH_NAMING = 2.0
-"""An action that costs more than so many times its limit is no alternative to another one."""
+"""An action that costs more than so many times what it may is no alternative to another one."""
 
 Fits: TypeAlias = dict[tuple[float, float, bool], FloatArray]
 """How unlike actions' examples stretches are, tokens apart, ``(a,)``, by start and end in seconds
@@ -60,65 +58,6 @@ class HasActions(Protocol):
     @property
     def actions(self) -> tuple[Action, ...]:
         """What can be performed."""
-
-
-@dataclass(frozen=True, slots=True)
-class Match:
-    """How well a gesture fits one action, or none.
-
-    Attributes
-    ----------
-    action : its name; None for no action at all.
-    distance : what it costs to see the gesture so; for None, what no action may cost.
-    confidence : in [0, 1], adding up to 1 over all matches of a gesture.
-    most : what the action may cost to be accepted; infinite for None.
-    terms : what the distance is made of, by name, weights included; empty for None.
-    """
-
-    action: str | None
-    distance: float
-    confidence: float
-    most: float = np.inf
-    terms: tuple[tuple[str, float], ...] = ()
-
-
-def learn_action(
-    name: str,
-    doodles: Sequence[Doodle],
-    *,
-    names: Sequence[str] | None = None,
-    figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
-    own: bool = True,
-) -> Action:
-    """Learn an action from examples of its gesture; three are usually enough.
-
-    Parameters
-    ----------
-    name
-        Of the action.
-    doodles
-        At least one, each with the gesture once, with or without rest around it.
-    names
-        What to call the examples; ``example 1`` and so on if absent.
-    figure_height_m
-        Height of the figurine that the prop stands for.
-    own
-        Whether the examples are of the person whose gestures are to be recognised; it matters
-        once there are also some of others.
-
-    Raises
-    ------
-    LearningError
-        If there is no example, if one never moves, or if one has nothing in common with the
-        others.
-    """
-    learned = learn_pattern(doodles, names=names or (), figure_height_m=figure_height_m)
-    examples = [
-        traits_of(smooth(doodle).between(*span), figure_height_m=figure_height_m)
-        for doodle, span in zip(doodles, learned.spans_s, strict=True)
-    ]
-    exemplar = weighed(exemplar_of(examples, own=own))
-    return Action(name, learned.pattern, learned_from=learned.names, exemplar=exemplar)
 
 
 class Recognizer:

@@ -12,9 +12,10 @@ from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import FloatArray
 from smd.recognition.acceptance import Intent
 from smd.recognition.action import Action
+from smd.recognition.matching import Match
 from smd.recognition.reasons import OUTDONE, reason_of
 from smd.recognition.recognizer import Span
-from smd.recognition.spotting import WORTH_NAMING, Match, Recognizer
+from smd.recognition.spotting import WORTH_NAMING, Recognizer
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of_parts
 

@@ -9,9 +9,9 @@ from smd.doodle import Doodle
 from smd.errors import LearningError
 from smd.recognition import Recognizer, learn_action
 from smd.recognition.action import Action
+from smd.recognition.matching import Match
 from smd.recognition.pattern import Pattern
 from smd.recognition.rehearsal import PLAINLY, Likeness, add_examples, gains, likeness
-from smd.recognition.spotting import Match
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take
 
@@ -116,7 +116,12 @@ def test_an_action_without_examples_is_widened_to_what_was_drawn():
 
 
 def ranked(**costs):
-    named = [Match(None if name == "none" else name, cost, 0.0) for name, cost in costs.items()]
+    """Matches of actions that all may cost what none does."""
+    most = costs["none"]
+    named = [
+        Match(name, cost, 0.0, most) if name != "none" else Match(None, cost, 0.0)
+        for name, cost in costs.items()
+    ]
     return tuple(sorted(named, key=lambda match: match.distance))
 
 
