@@ -26,7 +26,13 @@ try:
 except ImportedFileError as error:
     print(error, file=sys.stderr)
 used = resource.getrusage(resource.RUSAGE_SELF)
-print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+kilobytes = used.ru_maxrss
+try:  # where a process was forked from a large one, ru_maxrss is what that one took
+    with open("/proc/self/status") as status:
+        kilobytes = next(int(line.split()[1]) for line in status if line.startswith("VmHWM"))
+except OSError:
+    pass
+print(used.ru_utime + used.ru_stime, kilobytes / 1024)
 """
 
 
