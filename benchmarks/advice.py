@@ -109,7 +109,7 @@ def shares_in_any_reading(path: Path, cast: smd.Cast) -> Iterator[float]:
     sample = [busiest(doodles)]
     trials = Trials(cast, asked)
     for options in otherwise(doodles, asked):
-        found = trials.of(sample, options)
+        found = trials.glance(sample, options)
         if found.phrases >= LEAST_PHRASES:
             yield found.share
 

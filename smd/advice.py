@@ -16,7 +16,7 @@ import numpy as np
 from smd.doodle import Doodle, Recording
 from smd.errors import DoodleError
 from smd.formats.frame import METRES_PER_UNIT, Conversion, Mount, SourceFrame
-from smd.recognition.acceptance import Intent
+from smd.recognition.acceptance import OTHERS_MARGIN, Intent
 from smd.recognition.spotting import Recognizer
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from actions_library.cast import Cast
     from actions_library.library import Library
     from smd.score import Score
+
+AS_STRICT = float(np.exp(OTHERS_MARGIN[Intent.DRAWN] - OTHERS_MARGIN[Intent.FREE]))
+"""Tolerance at which drawn movement may cost no more than free movement, of others' examples."""
 
 SAMPLE_S = 12.0
 """So much of one device is read in every way: as many seconds as move most."""
@@ -134,7 +137,7 @@ def better_reading(
     for options in otherwise(doodles, asked):
         if only and not set(options) <= set(only):
             continue
-        found = trials.of(sample, options)
+        found = trials.glance(sample, options)
         if found.readable and found.certainty > most.certainty:
             best, most = options, found
     if best is None:
@@ -263,10 +266,19 @@ class Trials:
 
     def __init__(self, library: Cast, asked: Asked) -> None:
         self._library, self._asked = library, asked
-        self._made: dict[tuple[Library, float], Recognizer] = {}
+        self._made: dict[tuple[Library, float, bool], Recognizer] = {}
 
     def of(self, doodles: Sequence[Doodle], options: Mapping[str, str]) -> Explained:
         """Return what is recognised in doodles that are read otherwise."""
+        return self._read(doodles, options, glance=False)
+
+    def glance(self, doodles: Sequence[Doodle], options: Mapping[str, str]) -> Explained:
+        """Return what is recognised without dense stretches, which take most of the time."""
+        return self._read(doodles, options, glance=True)
+
+    def _read(
+        self, doodles: Sequence[Doodle], options: Mapping[str, str], *, glance: bool
+    ) -> Explained:
         asked = self._asked
         height_m = float(options.get("figure-height", asked.figure_height_m))
         of_frame = {name: value for name, value in options.items() if name != "figure-height"}
@@ -275,17 +287,18 @@ class Trials:
         read = [_reread(doodle, before, after) for doodle in doodles]
         if not _size_fits(read, height_m):
             return Explained()
-        return _explained(read, {d.device: self._recognizer(d.device, height_m) for d in doodles})
+        devices = {doodle.device for doodle in doodles}
+        return _explained(read, {d: self._recognizer(d, height_m, glance) for d in devices})
 
-    def _recognizer(self, device: str, figure_height_m: float) -> Recognizer:
+    def _recognizer(self, device: str, figure_height_m: float, glance: bool) -> Recognizer:
         library = self._library.of(device)
-        key = library, figure_height_m
+        key = library, figure_height_m, glance
         if key not in self._made:
             self._made[key] = Recognizer(
                 library,
                 figure_height_m=figure_height_m,
-                tolerance=self._asked.tolerance,
-                intent=self._asked.intent,
+                tolerance=self._asked.tolerance * (AS_STRICT if glance else 1.0),
+                intent=Intent.DRAWN if glance else self._asked.intent,
             )
         return self._made[key]
 

@@ -241,11 +241,11 @@ def test_the_shipped_exemplars_are_what_the_authoring_makes():
     from actions_library.authoring.examples import with_examples
 
     shipped = load_library()
-    for action in with_examples(HUMANOID_ACTIONS):
+    for action in HUMANOID_ACTIONS:
+        assert (shipped.action(action.name).exemplar is None) == (action.pattern is None)
+    some = [action for action in HUMANOID_ACTIONS if action.pattern][::8]  # a second each
+    for action in with_examples(some):
         stored = shipped.action(action.name).exemplar
-        if action.pattern is None:
-            assert stored is None
-            continue
         assert len(stored) == len(action.exemplar)
         for key, array in action.exemplar.to_arrays().items():
             # single precision, and another machine's sines

@@ -94,6 +94,8 @@ from smd.capture.beside import Beside
 from tests.smd.capture.test_beside import Notes
 
 if __name__ == "__main__":
+    # What is started in the background of a shell ignores Ctrl-C; a terminal's program does not.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with Beside(Notes(Path(sys.argv[1])).begun) as beside:
         beside.do("where")
         beside.do("write", "given")
