@@ -54,7 +54,7 @@ def parse(
         Those that perform; by default all but headsets (or the headset, where it is alone).
     tolerance
         How unlike an action's examples a gesture may be, positive: below 1 more is rejected,
-        above it less (docs/verification.md has the trade-off).
+        above it less (docs/sessions.md has figures).
     intent
         Whether movement was meant: "drawn", where a trigger was held, or "free", where nothing
         says so. By default a doodle that says when the user drew was drawn, and any other is free.
