@@ -16,6 +16,7 @@ import numpy as np
 
 from actions_library.folder import load_library
 from benchmarks import gestures, performers
+from benchmarks.limits import LimitRecognizer
 from benchmarks.process import picture_folder
 from benchmarks.takes import long_recording
 from smd.doodle import Doodle
@@ -269,6 +270,17 @@ def print_times() -> None:
         f"3 minutes, 2 devices, {sum(map(len, runs))} runs: tokens {tokenized - started:.3f} s, "
         f"recognition {ended - tokenized:.3f} s"
     )
+    limited = LimitRecognizer(load_library().actions)
+    ratios = []
+    for _ in range(5):
+        spent = []
+        for recognizer in (limited, RECOGNIZER):
+            started = time.process_time()
+            for doodle in recording.doodles:
+                recognizer.spot(doodle)
+            spent.append(time.process_time() - started)
+        ratios.append(spent[1] / spent[0])
+    print(f"times as long as with limits, five turns: {', '.join(f'{r:.2f}' for r in ratios)}")
 
 
 def main() -> None:

@@ -25,8 +25,8 @@ from smd.recognition.stretches import are_alike_long, dense_stretches
 from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
-from smd.recognition.traits import traits_of_parts
-from smd.recognition.verification import GLANCE, TERMS, WRONG, Verification
+from smd.recognition.traits import Traits, traits_of_parts
+from smd.recognition.verification import GLANCE, GLIMPSE, TERMS, WRONG, Verification
 from smd.smoothing import smooth
 
 UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
@@ -351,20 +351,23 @@ class Recognizer:
             some = new[begin : begin + TOGETHER]
             start_s, end_s, is_dense = np.array(some).T
             spans_s = [(start, end) for start, end, _ in some]
-            gestures = traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m)
             alike = are_alike_long(end_s - start_s, self._durations_s) | (is_dense == 0)[:, None]
-            near = self._verification.measured(gestures.measures) < most
-            gesture, action = np.nonzero(self._verified & alike & near)
-            terms = self._verification.terms(
-                gestures,
-                action,
-                gesture,
-                wrong=np.zeros(len(action)),
-                most=most[action],
-                every=GLANCE,
-            )
+            gesture, action = np.nonzero(self._verified & alike)
+            glimpse = self._traits(motion, spans_s, every=GLIMPSE)
+            promising = self._verification.promising(glimpse, action, gesture, most[action])
+            gesture, action = gesture[promising], action[promising]
             fits = np.full((len(some), len(self.names)), np.inf)
-            fits[gesture, action] = terms.sum(axis=1)
+            if len(gesture):
+                looked_at, which = np.unique(gesture, return_inverse=True)
+                terms = self._verification.terms(
+                    self._traits(motion, [spans_s[i] for i in looked_at.tolist()]),
+                    action,
+                    which,
+                    wrong=np.zeros(len(action)),
+                    most=most[action],
+                    every=GLANCE,
+                )
+                fits[gesture, action] = terms.sum(axis=1)
             known.update(zip(some, fits, strict=True))
         return np.array([known[span] for span in spans]).reshape(len(spans), len(self.names))
 
@@ -404,13 +407,19 @@ class Recognizer:
         if not spans_s:
             return np.zeros((0, len(action), len(TERMS)))
         terms = self._verification.terms(
-            traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m),
+            self._traits(motion, spans_s),
             np.tile(action, len(spans_s)),
             np.repeat(np.arange(len(spans_s)), len(action)),
             wrong=np.zeros(len(spans_s) * len(action)),
             most=np.tile(most[action], len(spans_s)),
         )
         return terms.reshape(len(spans_s), len(action), len(TERMS))
+
+    def _traits(
+        self, motion: RigidMotion, spans_s: Sequence[tuple[float, float]], *, every: int = 1
+    ) -> Traits:
+        """Return the traits of spans of a motion."""
+        return traits_of_parts(motion, spans_s, figure_height_m=self._figure_height_m, every=every)
 
     def _ranked(self, terms: FloatArray, most: FloatArray) -> list[Match]:
         """Return the matches of one gesture, the best first, from its terms ``(a, 9)``.

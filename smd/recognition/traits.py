@@ -91,6 +91,7 @@ def traits_of_parts(
     spans_s: Sequence[tuple[float, float]],
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+    every: int = 1,
 ) -> Traits:
     """Return the traits of parts of a motion, each as if it were alone, all at once.
 
@@ -103,12 +104,14 @@ def traits_of_parts(
         least one part.
     figure_height_m
         Height of the figurine that the prop stands for; lengths are counted in it.
+    every
+        Only every so many-th sample of the courses is made, and looked at.
     """
     spans = np.asarray(spans_s, dtype=np.float64)
     time_s = motion.time_s
     start_s = time_s[np.searchsorted(time_s, spans[:, 0] - 1e-9)]
     end_s = time_s[np.searchsorted(time_s, spans[:, 1] + 1e-9, side="right") - 1]
-    at_s = np.linspace(start_s, end_s, SAMPLES, axis=-1)
+    at_s = np.linspace(start_s, end_s, SAMPLES, axis=-1)[:, ::every]
 
     poses = scaled(
         Poses(

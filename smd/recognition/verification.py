@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.recognition.exemplar import BAND, Exemplar, faced
 from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
 from smd.recognition.warping import Examples
@@ -26,6 +26,16 @@ WRONG = float(WEIGHTS[0])
 GLANCE = 2
 """Courses of proposals are warped by every second sample, in a quarter of the time. That is good
 enough to choose stretches; what they are called is decided by all samples."""
+
+GLIMPSE = 4
+"""Most stretches are like nothing. They are told by two courses at every fourth sample."""
+
+GLIMPSE_COURSES = ("shape_heading", "flow_heading")
+"""The two that weigh most."""
+
+GLIMPSE_ROOM = 1.1
+"""What courses at every fourth sample cost may be so many times what they may at every second one.
+``docs/verification.md`` says how rarely that loses a stretch."""
 
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
 _SHAPE = COURSES.index("shape_heading")
@@ -83,7 +93,7 @@ class Verification:
                 for each in courses
                 if each
             )
-            for every in (1, GLANCE)
+            for every in (1, GLANCE, GLIMPSE)
         }
         object.__setattr__(self, "examples", MappingProxyType(examples))
 
@@ -171,6 +181,34 @@ class Verification:
             known[left] += terms[left, 1 + i]
             left = left[known[left] + floor[left].sum(axis=1) <= most[left]]
         return terms
+
+    def promising(
+        self, gestures: Traits, action: IntArray, gesture: IntArray, most: FloatArray
+    ) -> BoolArray:
+        """Return ``(p,)``, which pairs of an action and a gesture are worth a closer look.
+
+        What is known at a glimpse is at most `GLIMPSE_ROOM` times ``most``: the measures, and
+        `GLIMPSE_COURSES` at every fourth sample. The gestures have no others; parameters are those
+        of `terms`.
+        """
+        courses = {i: gestures.courses[i] for i in map(COURSES.index, GLIMPSE_COURSES)}
+        central = self.central[:, ::GLIMPSE]
+        room = GLIMPSE_ROOM * most - self.measured(gestures.measures)[gesture, action]
+        by_action = np.argsort(action, kind="stable")
+        for begin in range(0, len(action), PAIRS):
+            left = by_action[begin : begin + PAIRS]
+            left = left[room[left] >= 0.0]
+            for i, course in courses.items():
+                ours, own = course[gesture[left]], action[left]
+                if i == _SHAPE:
+                    ours = faced(ours, central[own])
+                examples, unit = self.examples[GLIMPSE][i], self.unit[own, i]
+                within = unit * examples.at_least(ours, own) <= room[left]
+                room[left[~within]] = -np.inf
+                left, ours, own, unit = left[within], ours[within], own[within], unit[within]
+                room[left] -= unit * examples.nearest(ours, own, room[left] / unit)
+                left = left[room[left] >= 0.0]
+        return np.asarray(room >= 0.0)
 
     def measured(self, measures: FloatArray) -> FloatArray:
         """Return ``(g, a)``, what the measures ``(g, 4)`` of g gestures alone cost, as actions."""

@@ -6,7 +6,14 @@ import pytest
 from smd.recognition import verification as module
 from smd.recognition.exemplar import BAND, exemplar_of, faced
 from smd.recognition.traits import COURSES, SAMPLES, Traits
-from smd.recognition.verification import GLANCE, WEIGHTS, Verification
+from smd.recognition.verification import (
+    GLANCE,
+    GLIMPSE,
+    GLIMPSE_COURSES,
+    GLIMPSE_ROOM,
+    WEIGHTS,
+    Verification,
+)
 from tests.naive.warping import table_distance
 
 WIDTHS = (12, 12, 6, 6)
@@ -93,3 +100,26 @@ def test_measures_alone_cost_what_they_cost_among_the_terms(problem):
     expected = naive_terms(*problem, 1)[:, 5:].sum(axis=1)
     found = verification.measured(gestures.measures)
     np.testing.assert_allclose(found[gesture, action], expected, rtol=1e-9)
+
+
+def test_what_is_promising_at_a_glimpse_follows_from_the_plain_formula(problem, monkeypatch):
+    verification, gestures, action, gesture, wrong = problem
+    seen = Traits(tuple(c[:, ::GLIMPSE] for c in gestures.courses), gestures.measures)
+    expected = verification.measured(gestures.measures)[gesture, action]
+    for name in GLIMPSE_COURSES:
+        i = COURSES.index(name)
+        for pair, (a, g) in enumerate(zip(action, gesture, strict=True)):
+            exemplar, course = verification.exemplars[a], seen.courses[i][g]
+            if name == "shape_heading":
+                course = faced(course[None], exemplar.central[::GLIMPSE])[0]
+            near = min(
+                factor * table_distance(course, example[::GLIMPSE], BAND)
+                for example, factor in zip(exemplar.courses[name], exemplar.factor, strict=True)
+            )
+            expected[pair] += WEIGHTS[1 + i] * near / exemplar.scale[i]
+    mixed = np.random.default_rng(1).permutation(len(action))
+    for pairs, share in ((4096, 1.001), (4, 0.999), (7, 1.001), (5, np.inf), (5, 0.0)):
+        monkeypatch.setattr(module, "PAIRS", pairs)
+        most = np.where(np.arange(len(action)) % 2, share, 1.001) * expected / GLIMPSE_ROOM
+        found = verification.promising(seen, action[mixed], gesture[mixed], most[mixed])
+        np.testing.assert_array_equal(found, (GLIMPSE_ROOM * most >= expected)[mixed])
