@@ -103,7 +103,7 @@ def test_measures_alone_cost_what_they_cost_among_the_terms(problem):
 
 
 def test_what_is_promising_at_a_glimpse_follows_from_the_plain_formula(problem, monkeypatch):
-    verification, gestures, action, gesture, wrong = problem
+    verification, gestures, action, gesture, _ = problem
     seen = Traits(tuple(c[:, ::GLIMPSE] for c in gestures.courses), gestures.measures)
     expected = verification.measured(gestures.measures)[gesture, action]
     for name in GLIMPSE_COURSES:
