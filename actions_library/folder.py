@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,15 +27,20 @@ def load_library(path: Path | str | None = None) -> Library:
     Parameters
     ----------
     path
-        The folder; None for the humanoid that is shipped.
+        The folder; None for the humanoid that is shipped, which is read once.
 
     Raises
     ------
     LibraryError
         If there is no such folder, or its ``library.json`` is not one of ours.
     """
-    folder = Path(__file__).with_name("humanoid") if path is None else Path(path)
-    return read_manifest(folder)
+    return _shipped() if path is None else read_manifest(Path(path))
+
+
+@cache
+def _shipped() -> Library:
+    """Read the humanoid; nothing of it changes, so all may share it and what it has read."""
+    return read_manifest(Path(__file__).with_name("humanoid"))
 
 
 def write_library(

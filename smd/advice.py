@@ -17,13 +17,13 @@ from smd.doodle import Doodle, Recording
 from smd.errors import DoodleError
 from smd.formats.frame import METRES_PER_UNIT, Conversion, Mount, SourceFrame
 from smd.recognition.acceptance import OTHERS_MARGIN, Intent
-from smd.recognition.spotting import Recognizer
+from smd.recognition.recognizers import recognizer_of
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 
 if TYPE_CHECKING:
     from actions_library.cast import Cast
-    from actions_library.library import Library
+    from smd.recognition.spotting import Recognizer
     from smd.score import Score
 
 AS_STRICT = float(np.exp(OTHERS_MARGIN[Intent.DRAWN] - OTHERS_MARGIN[Intent.FREE]))
@@ -262,11 +262,10 @@ def understood_share(recording: Recording, score: Score) -> float:
 
 
 class Trials:
-    """Other readings of a recording's doodles; recognizers are made once for each figure height."""
+    """Other readings of a recording's doodles."""
 
     def __init__(self, library: Cast, asked: Asked) -> None:
         self._library, self._asked = library, asked
-        self._made: dict[tuple[Library, float, bool], Recognizer] = {}
 
     def of(self, doodles: Sequence[Doodle], options: Mapping[str, str]) -> Explained:
         """Return what is recognised in doodles that are read otherwise."""
@@ -291,16 +290,12 @@ class Trials:
         return _explained(read, {d: self._recognizer(d, height_m, glance) for d in devices})
 
     def _recognizer(self, device: str, figure_height_m: float, glance: bool) -> Recognizer:
-        library = self._library.of(device)
-        key = library, figure_height_m, glance
-        if key not in self._made:
-            self._made[key] = Recognizer(
-                library,
-                figure_height_m=figure_height_m,
-                tolerance=self._asked.tolerance * (AS_STRICT if glance else 1.0),
-                intent=Intent.DRAWN if glance else self._asked.intent,
-            )
-        return self._made[key]
+        return recognizer_of(
+            self._library.of(device),
+            figure_height_m=figure_height_m,
+            tolerance=self._asked.tolerance * (AS_STRICT if glance else 1.0),
+            intent=Intent.DRAWN if glance else self._asked.intent,
+        )
 
 
 def _explained(doodles: Sequence[Doodle], recognizers: Mapping[str, Recognizer]) -> Explained:

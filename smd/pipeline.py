@@ -80,7 +80,7 @@ def parse(
     from laban import load_effort_model
     from smd.following import going_along
     from smd.recognition.acceptance import Intent
-    from smd.recognition.spotting import Recognizer
+    from smd.recognition.recognizers import recognizer_of
     from smd.score import INTENTS, Part, Score
 
     if unexplained not in UNEXPLAINED:
@@ -90,22 +90,20 @@ def parse(
     empty = Score((), recording.source, figure_height_m=figure_height_m)
     cast = cast_of(library)
     cast.check(recording.devices)
-    recognizers: dict[Library, Recognizer] = {}
     model = load_effort_model()
     parts, warnings = [], list(_without_examples(cast))
     for device in _performing(recording, devices):
         own = cast.of(device)
-        if own not in recognizers:
-            recognizers[own] = Recognizer(
-                own,
-                figure_height_m=figure_height_m,
-                tolerance=tolerance,
-                intent=None if intent is None else Intent(intent),
-            )
+        recognizer = recognizer_of(
+            own,
+            figure_height_m=figure_height_m,
+            tolerance=tolerance,
+            intent=None if intent is None else Intent(intent),
+        )
         understood: list[Understood] = []
         for doodle in recording.of(device):
             try:
-                understood.append(_understood(doodle, recognizers[own]))
+                understood.append(_understood(doodle, recognizer))
             except DoodleError as error:
                 warnings.append(f"left out: {error}")
         played = [
@@ -121,7 +119,7 @@ def parse(
                 own,
                 figure_height_m=figure_height_m,
             )
-        suggested = tuple(_suggestions(understood, recognizers[own], own, figure_height_m))
+        suggested = tuple(_suggestions(understood, recognizer, own, figure_height_m))
         meant = Intent.DRAWN in [one.intent for one in understood]
         said = str(Intent.DRAWN if meant else Intent.FREE)
         parts.append(Part(device, phrases, intent=said, suggestions=suggested))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from smd.recognition import Recognizer
 from smd.recognition.acceptance import Intent
+from smd.recognition.recognizers import recognizer_of
 
 if TYPE_CHECKING:
     from actions_library.cast import Cast
@@ -43,7 +43,7 @@ def _phrases(
 ) -> Iterator[str]:
     """Yield lines on what phrases were weighed by, where there are any."""
     if phrases:
-        recognizer = Recognizer(
+        recognizer = recognizer_of(
             cast.of(part.device),
             figure_height_m=score.figure_height_m,
             intent=Intent(part.intent) if part.intent else None,

@@ -48,10 +48,10 @@ class Understanding:
         """Load what is needed to understand."""
         import smd
         from laban import load_effort_model
-        from smd.recognition import Recognizer
+        from smd.recognition.recognizers import recognizer_of
 
         library = smd.load_library(self.folder)
-        recognizer = Recognizer(
+        recognizer = recognizer_of(
             library, figure_height_m=self.figure_height_m, tolerance=self.tolerance
         )
         return Understander(self, library, recognizer, load_effort_model())
