@@ -60,7 +60,9 @@ def eased(person: Person, difficulty: float) -> Person:
         if field.name in ("size", "pace"):
             shares[field.name] = (all_**difficulty).tolist()
         else:
-            shares[field.name] = (none + difficulty * (all_ - none)).tolist()
+            share = none + difficulty * (all_ - none)
+            counted = isinstance(getattr(person, field.name), int)
+            shares[field.name] = round(float(share)) if counted else share.tolist()
     return replace(person, **shares)
 
 
