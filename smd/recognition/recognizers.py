@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-from typing import Protocol
+from collections.abc import Callable
+from functools import lru_cache, partial
+from weakref import WeakKeyDictionary
 
 from smd.recognition.acceptance import Intent
 from smd.recognition.spotting import HasActions, Recognizer
 
 KEPT = 16
-"""So many recognizers are kept: those of a cast, and of the sizes that advice tries."""
+"""So many recognizers are kept of a library: those of the sizes that advice tries, and more."""
 
-
-class FrozenActions(HasActions, Protocol):
-    """A library that never changes."""
-
-    def __hash__(self) -> int:
-        """Return the same of the same object."""
+_RECOGNIZER_OF: WeakKeyDictionary[HasActions, Callable[..., Recognizer]] = WeakKeyDictionary()
+"""What makes a library's recognizers, and keeps them as long as the library is there."""
 
 
 def recognizer_of(
-    library: FrozenActions,
+    library: HasActions,
     *,
     figure_height_m: float,
     tolerance: float = 1.0,
@@ -31,11 +28,10 @@ def recognizer_of(
     Parameters are those of `Recognizer`. A recognizer never changes, so all may share it; libraries
     are told apart as objects, for what is frozen cannot come to hold other actions.
     """
-    return _made(library, figure_height_m, tolerance, intent)
-
-
-@lru_cache(maxsize=KEPT)
-def _made(
-    library: FrozenActions, figure_height_m: float, tolerance: float, intent: Intent | None
-) -> Recognizer:
-    return Recognizer(library, figure_height_m=figure_height_m, tolerance=tolerance, intent=intent)
+    if library not in _RECOGNIZER_OF:
+        # Of its actions alone: what held the library would keep it, clips and all, for ever.
+        make = partial(Recognizer, library.actions)
+        _RECOGNIZER_OF[library] = lru_cache(maxsize=KEPT)(make)
+    return _RECOGNIZER_OF[library](
+        figure_height_m=figure_height_m, tolerance=tolerance, intent=intent
+    )

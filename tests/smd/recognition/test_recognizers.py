@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
+
 import smd
 from smd.recognition.acceptance import Intent
 from smd.recognition.recognizers import recognizer_of
@@ -32,3 +35,13 @@ def test_the_shipped_library_is_read_once_and_others_each_time():
     shipped = smd.load_library()
     assert smd.load_library() is shipped
     assert smd.load_library(shipped.folder) is not smd.load_library(shipped.folder)
+
+
+def test_a_library_that_nobody_holds_any_more_is_let_go():
+    library = smd.load_library(smd.load_library().folder)
+    recognizer = recognizer_of(library, figure_height_m=0.2)
+    gone = weakref.ref(library)
+    del library
+    gc.collect()
+    assert gone() is None
+    assert recognizer.names  # it needs no library
