@@ -10,24 +10,24 @@ import numpy as np
 
 from actions_library.cast import cast_of
 from actions_library.library import Library
+from smd.acting.acting import acted_contacts, own_poses, rows_of
+from smd.acting.legs import feet_of, legs_of
+from smd.acting.move import Move
+from smd.acting.performance import Actor, Performance
+from smd.acting.standing import standing
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.poses import Poses
 from smd.character.skeleton import Skeleton
 from smd.doodle import Doodle, Recording
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
 from smd.smoothing import smooth
-from smd.transfer.acting import acted_contacts, own_poses, rows_of
-from smd.transfer.legs import feet_of, legs_of
-from smd.transfer.move import Move
 from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
 from smd.transfer.perform import entrances, kept_apart
-from smd.transfer.performance import Actor, Performance
-from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Piece
 from smd.transfer.stage import stage_for
-from smd.transfer.standing import standing
 
 LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
 """NVIDIA kimodo's: toes below the first height are taken to touch, above the speed to skate."""

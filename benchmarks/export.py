@@ -16,9 +16,9 @@ import numpy as np
 
 from actions_library.folder import load_library
 from benchmarks.process import machine
+from smd.acting.performance import Actor, Performance
 from smd.doodle import Doodle
 from smd.score import Part, Phrase, Score
-from smd.transfer.performance import Actor, Performance
 
 RUNS = 5
 

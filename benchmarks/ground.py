@@ -13,14 +13,14 @@ import numpy as np
 
 from actions_library.folder import load_library
 from actions_library.library import Library
+from smd.acting.flight import GRAVITY_M_S2
+from smd.acting.legs import feet_of, legs_of, world_of
+from smd.acting.performance import Performance
+from smd.acting.terrain import Terrain
 from smd.doodle import Doodle, Recording
 from smd.geometry.rotations import rotate
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
-from smd.transfer.flight import GRAVITY_M_S2
-from smd.transfer.legs import feet_of, legs_of, world_of
-from smd.transfer.performance import Performance
-from smd.transfer.terrain import Terrain
 
 RATE_HZ = 60.0
 LEVEL = np.array([0.0, 0.0, 0.0, 1.0])

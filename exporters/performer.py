@@ -21,8 +21,8 @@ from exporters.bounds import body_boxes
 from exporters.palette import RGB, performer_colors
 from exporters.phrases import name_phrases
 from exporters.scenery import define_doodle, define_prop
+from smd.acting.performance import Actor, Performance
 from smd.geometry.arrays import FloatArray
-from smd.transfer.performance import Actor, Performance
 
 DEVICE_KEY = "smd:device"
 """In a SkelRoot's custom data."""

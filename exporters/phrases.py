@@ -9,8 +9,8 @@ from typing import Any
 from pxr import Usd
 
 from laban import AXES, Effort
+from smd.acting.performance import Performance
 from smd.score import Phrase
-from smd.transfer.performance import Performance
 
 PHRASES_KEY = "smd:phrases"
 """In a SkelRoot's custom data: a dictionary a phrase, by its number from ``p0000`` on."""

@@ -10,12 +10,12 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
 from actions_library.stage_frame import StageFrame
 from actions_library.usd_skel import define_material, define_mesh
 from exporters.palette import IDLE_RGB, RGB, linear_from_srgb
+from smd.acting.performance import Actor, Performance
+from smd.acting.terrain import Terrain
 from smd.doodle import Doodle
 from smd.geometry.arrays import FloatArray
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.score import Part
-from smd.transfer.performance import Actor, Performance
-from smd.transfer.terrain import Terrain
 
 DOODLE_WIDTH_M = 0.03
 GROUND_RGB: RGB = (0.78, 0.79, 0.80)

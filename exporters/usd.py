@@ -29,11 +29,11 @@ from exporters.package import write_package
 from exporters.palette import action_colors
 from exporters.performer import Performer, Places, define_performer
 from exporters.scenery import define_camera, define_ground, doodle_box
+from smd.acting.performance import Performance
 from smd.errors import ExportError
 from smd.files import write_together
 from smd.geometry.arrays import FloatArray
 from smd.score_file import score_to_json
-from smd.transfer.performance import Performance
 
 ROOT, PERFORMER = "Performance", "Performer"
 ACTORS, DOODLES, PROPS, SCENERY = (

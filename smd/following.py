@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from laban import RigidMotion
+from smd.acting.legs import feet_of
 from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import heading_rad
 from smd.score import Phrase
-from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.ground_root import ground_root, turned
-from smd.transfer.legs import feet_of
 
 if TYPE_CHECKING:
     from actions_library.library import Library

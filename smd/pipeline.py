@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from actions_library.cast import Cast
     from actions_library.library import Library
     from laban import EffortModel, RigidMotion
+    from smd.acting.performance import Performance
+    from smd.acting.terrain import Terrain
     from smd.doodle import Doodle, Recording
     from smd.recognition.recognizer import Span
     from smd.recognition.spotting import Recognizer
     from smd.recognition.suggestions import Understood
     from smd.score import Phrase, Score, Suggestion
-    from smd.transfer.performance import Performance
-    from smd.transfer.terrain import Terrain
 
 HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
 """Names of devices that are worn, not played with."""
@@ -266,8 +266,8 @@ def animate(
     TransferError
         If it cannot be acted out, or there is no ground, or more than one, below a way.
     """
+    from smd.acting.terrain import read_terrain
     from smd.transfer.perform import perform
-    from smd.transfer.terrain import read_terrain
 
     return perform(
         score,

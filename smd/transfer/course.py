@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from actions_library.library import IDLE
+from smd.acting.move import Move, Placement, nearest_turn
 from smd.score import Phrase
 from smd.transfer.gait import phase_after
 from smd.transfer.in_place import Facing, facing, gesture, idling, turn, turn_passes, turns
-from smd.transfer.move import Move, Placement, nearest_turn
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece, Repertoire
 from smd.transfer.timeline import Span

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from smd.acting.move import Move
 from smd.transfer.gait import LONGEST_STRIDE
-from smd.transfer.move import Move
 from smd.transfer.travelling import NOWHERE_M
 
 FASTEST_PLAYED = 3.0

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from smd.acting.move import Move, Placement, knots
 from smd.geometry.arrays import FloatArray
-from smd.transfer.easing import smootherstep
+from smd.geometry.easing import smootherstep
 from smd.transfer.ground_root import turned
-from smd.transfer.move import Move, Placement, knots
 from smd.transfer.pacing import Pacing, paced
 from smd.transfer.repertoire import Piece
 

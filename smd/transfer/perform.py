@@ -11,29 +11,29 @@ import numpy as np
 
 from actions_library.cast import Cast, cast_of
 from actions_library.library import Library
+from smd.acting.acting import acted_contacts, acted_poses
+from smd.acting.company import apart, encounters
+from smd.acting.flight import flights, height_of, in_air, raised
+from smd.acting.grounding import Rise, grounded
+from smd.acting.legs import pelvis_of
+from smd.acting.move import Move
+from smd.acting.performance import Actor, Performance
+from smd.acting.slope import slope
+from smd.acting.terrain import Terrain
 from smd.character.character import Character
+from smd.character.poses import Poses
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
+from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Phrase, Score
-from smd.transfer.acting import acted_contacts, acted_poses
-from smd.transfer.company import apart, encounters
 from smd.transfer.course import course
 from smd.transfer.demands import demands
-from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.facing import HEADINGS
-from smd.transfer.flight import flights, height_of, in_air, raised
-from smd.transfer.grounding import Rise, grounded
-from smd.transfer.legs import pelvis_of
-from smd.transfer.move import Move
 from smd.transfer.path import ground_path
-from smd.transfer.performance import Actor, Performance
-from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Repertoire, repertoire
-from smd.transfer.slope import slope
 from smd.transfer.stage import Stage, stage_for
-from smd.transfer.terrain import Terrain
 from smd.transfer.timeline import timeline
 
 RATE_HZ = 24.0

@@ -9,18 +9,18 @@ import numpy as np
 
 from actions_library.library import IDLE, Library
 from laban import Effort
+from smd.acting.legs import Leg, feet_of, legs_of, yaw_of
+from smd.acting.standing import standing
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.expression.body import body_of
+from smd.expression.expressive import expressive
+from smd.expression.study import Study, study_of
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
-from smd.transfer.body import body_of
-from smd.transfer.expression import expressive
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
-from smd.transfer.legs import Leg, feet_of, legs_of, yaw_of
 from smd.transfer.pacing import near_share
-from smd.transfer.standing import standing
-from smd.transfer.study import Study, study_of
 
 SAME_POSE = 0.999
 """Cosine of half the angle up to which all joints of two poses are turned alike: 5 degrees."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from smd.acting.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
 from smd.geometry.arrays import FloatArray
-from smd.transfer.easing import eased_clock, gaussian_smoothed, smootherstep
+from smd.geometry.easing import eased_clock, gaussian_smoothed, smootherstep
 from smd.transfer.ground_root import executed
-from smd.transfer.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
 from smd.transfer.pacing import paced
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece

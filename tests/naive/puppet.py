@@ -6,12 +6,12 @@ import numpy as np
 
 from actions_library.authoring.humanoid import humanoid_skeleton
 from laban import Effort
+from smd.acting.performance import Actor, Performance
 from smd.character.character import Character, Mesh
 from smd.character.clip import Clip
 from smd.doodle import Doodle
 from smd.geometry.rotations import quaternion_about
 from smd.score import Part, Phrase, Score
-from smd.transfer.performance import Actor, Performance
 
 SIDES = 6
 

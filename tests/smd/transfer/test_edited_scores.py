@@ -10,10 +10,10 @@ import pytest
 
 import smd
 from laban import Effort
+from smd.acting.performance import Performance
 from smd.formats import read_recording
 from smd.score import Part, Phrase
 from smd.score_file import read_score
-from smd.transfer.performance import Performance
 
 STORIES = Path(__file__).parents[3] / "recordings"
 LIBRARY = smd.load_library()

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from smd.acting.legs import legs_of
 from smd.character.kinematics import forward_kinematics
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
@@ -17,7 +18,6 @@ from smd.geometry.rotations import (
 )
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
-from smd.transfer.legs import legs_of
 
 UP = [0.0, 1.0, 0.0]
 
