@@ -14,8 +14,9 @@ from itertools import combinations
 import numpy as np
 
 from smd.acting.move import KNOT_RATE_HZ, Move
-from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
+from smd.geometry.runs import runs_of_true
 
 WIDTH_PER_HEIGHT = 0.3
 """How wide a body is, as a share of its height: shoulders are 0.26 [1]_, and there are arms.
@@ -87,7 +88,7 @@ def _past(apart_m: FloatArray, least_m: float, time_s: FloatArray) -> FloatArray
     done = apart_m.copy()
     far = np.linalg.norm(apart_m, axis=-1)
     ahead = max(round(AHEAD_S * (len(time_s) - 1) / max(time_s[-1] - time_s[0], 1e-9)), 1)
-    for start, end in _runs(far < least_m):
+    for start, end in runs_of_true(far < least_m):
         nearest = start + int(np.argmin(far[start:end]))
         if far[nearest] >= THROUGH * least_m:
             continue
@@ -145,18 +146,11 @@ def _shares(position_m: FloatArray, push_m: FloatArray, time_s: FloatArray) -> F
     stands is moved by another's coming to rest.
     """
     share = np.full((2, len(time_s)), 0.5)
-    for start, end in _runs(np.any(push_m != 0.0, axis=-1)):
+    for start, end in runs_of_true(np.any(push_m != 0.0, axis=-1)):
         way = np.linalg.norm(np.diff(position_m[:, start:end], axis=1), axis=-1).sum(axis=-1)
         speed = way / max(time_s[end - 1] - time_s[start], 1e-9) + _STANDING_M_S
         share[:, start:end] = (speed / speed.sum())[:, None]
     return share
-
-
-def _runs(signal: BoolArray) -> Iterator[tuple[int, int]]:
-    """Yield first and one past the last index of each stretch of true."""
-    edges = np.diff(np.concatenate([[0], signal.astype(np.int8), [0]]))
-    starts, ends = np.flatnonzero(edges == 1).tolist(), np.flatnonzero(edges == -1).tolist()
-    yield from zip(starts, ends, strict=True)
 
 
 def roots(moves: Sequence[Move], time_s: FloatArray) -> FloatArray:
@@ -212,8 +206,8 @@ def encounters(
     for a, b in combinations(range(len(devices)), 2):
         least_m = least_distance_m(heights_m[a], heights_m[b])
         near = np.linalg.norm(was[b] - was[a], axis=-1)
-        times = list(_runs(near < least_m))
-        if not times:
+        times = runs_of_true(near < least_m)
+        if len(times) == 0:
             continue
         worst = int(np.argmin(near))
         rows = np.zeros(len(time_s), dtype=bool)

@@ -21,6 +21,7 @@ from smd.acting.legs import Leg, yaw_of
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.easing import fading, smootherstep
 from smd.geometry.rotations import quaternion_about, rotate
+from smd.geometry.runs import runs_of_true
 
 LOW_M = 0.01
 """Height up to which a sole counts as on the ground, where the clip says that it stands."""
@@ -116,8 +117,7 @@ def footing(
 
 def plants_of(stands: BoolArray) -> IntArray:
     """Return where a foot stands: first frame and one past the last of each plant, ``(p, 2)``."""
-    edges = np.diff(np.concatenate([[0], stands.astype(np.int8), [0]]))
-    plants = np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=-1)
+    plants = runs_of_true(stands)
     return plants[plants[:, 1] - plants[:, 0] >= SHORTEST_PLANT]
 
 

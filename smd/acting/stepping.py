@@ -11,6 +11,7 @@ import numpy as np
 
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.easing import smootherstep
+from smd.geometry.runs import runs_of_true
 
 TURN_COUNTS_M = 0.3
 """Metres that a turn by one radian counts as: a little more than a foot's length."""
@@ -65,8 +66,8 @@ def stepping(
     speed = shifting + TURN_COUNTS_M * turning
     restless = np.asarray(speed.max(axis=1) > RESTLESS_M_S)
     all_stand = np.asarray(stands.all(axis=1))
-    for first, last in _runs(all_stand):
-        for start, end in _runs(restless[first:last]) + first:
+    for first, last in runs_of_true(all_stand):
+        for start, end in runs_of_true(restless[first:last]) + first:
             # Where the feet get going from or come to standing, the clip's own steps do it.
             if start == first or end == last:
                 continue
@@ -81,12 +82,6 @@ def stepping(
             edges = _widened(start, end, first + 1, last - 1, len(steps) * STEP_S * rate_hz)
             _take(stands, lift_m, steps, edges)
     return stands, lift_m
-
-
-def _runs(signal: BoolArray) -> IntArray:
-    """Return first and one past the last index of each stretch of true, ``(r, 2)``."""
-    edges = np.diff(np.concatenate([[0], signal.astype(np.int8), [0]]))
-    return np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=-1)
 
 
 def _widened(start: int, end: int, low: int, high: int, least: float) -> tuple[int, int]:
