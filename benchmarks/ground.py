@@ -70,9 +70,7 @@ def soles(
     (actor,) = performance.actors
     heights, slides = [], []
     for leg in legs_of(library.character.skeleton, feet_of(library.clip("walk"))):
-        q, ankle = world_of(
-            library.character.skeleton, leg.foot, actor.rotation_xyzw, actor.translation_m
-        )
+        q, ankle = world_of(library.character.skeleton, leg.foot, *actor.poses)
         points = ankle + np.stack([rotate(q, leg.heel_m), rotate(q, leg.ball_m)])
         over = points[..., 1] - ground.height_at(points[..., [0, 2]])
         over[1] -= leg.ball_height_m
@@ -94,7 +92,7 @@ def flown(library: Library) -> None:
             for rise_m in (0.0, 0.3, 1.0):
                 recording, score = take(library, action, lasting_s, way_m=1.0, rise_m=rise_m)
                 (actor,) = animate(score, recording, library, rate_hz=240.0).actors
-                body = actor.translation_m[:, hips, 1]
+                body = actor.poses.translation_m[:, hips, 1]
                 bend = np.diff(body, 2) * 240.0**2
                 top = int(body[1:-1].argmax())
                 fall = -bend[top]

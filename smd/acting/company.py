@@ -13,7 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
-from smd.acting.move import KNOT_RATE_HZ, Move
+from smd.acting.move import KNOT_RATE_HZ, Move, Playable, PlayedT
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.runs import runs_of_true
@@ -153,7 +153,7 @@ def _shares(position_m: FloatArray, push_m: FloatArray, time_s: FloatArray) -> F
     return share
 
 
-def roots(moves: Sequence[Move], time_s: FloatArray) -> FloatArray:
+def roots(moves: Sequence[Move[Playable]], time_s: FloatArray) -> FloatArray:
     """Return where a performer's ground root is ``(n, 2)`` at some times."""
     of = np.searchsorted([move.end_s for move in moves[:-1]], time_s, side="right")
     place = np.empty((len(time_s), 2))
@@ -163,8 +163,8 @@ def roots(moves: Sequence[Move], time_s: FloatArray) -> FloatArray:
 
 
 def apart(
-    all_moves: Sequence[Sequence[Move]], heights_m: Sequence[float]
-) -> list[tuple[Move, ...]]:
+    all_moves: Sequence[Sequence[Move[PlayedT]]], heights_m: Sequence[float]
+) -> list[tuple[Move[PlayedT], ...]]:
     """Return the moves of all performers, bent aside where two of them come too near."""
     if len(all_moves) < 2:
         return [tuple(moves) for moves in all_moves]
@@ -174,14 +174,16 @@ def apart(
     return [_displaced(moves, time_s, by) for moves, by in zip(all_moves, offsets, strict=True)]
 
 
-def meeting_times(all_moves: Sequence[Sequence[Move]]) -> FloatArray:
+def meeting_times(all_moves: Sequence[Sequence[Move[Playable]]]) -> FloatArray:
     """Return the times at which performers are looked at, all of them at the same ones."""
     start_s = min(moves[0].start_s for moves in all_moves)
     end_s = max(moves[-1].end_s for moves in all_moves)
     return np.linspace(start_s, end_s, max(round((end_s - start_s) * KNOT_RATE_HZ), 1) + 1)
 
 
-def _displaced(moves: Sequence[Move], time_s: FloatArray, offset_m: FloatArray) -> tuple[Move, ...]:
+def _displaced(
+    moves: Sequence[Move[PlayedT]], time_s: FloatArray, offset_m: FloatArray
+) -> tuple[Move[PlayedT], ...]:
     if not offset_m.any():
         return tuple(moves)
 
@@ -193,8 +195,8 @@ def _displaced(moves: Sequence[Move], time_s: FloatArray, offset_m: FloatArray) 
 
 def encounters(
     devices: Sequence[str],
-    before: Sequence[Sequence[Move]],
-    after: Sequence[Sequence[Move]],
+    before: Sequence[Sequence[Move[Playable]]],
+    after: Sequence[Sequence[Move[Playable]]],
     heights_m: Sequence[float],
 ) -> Iterator[str]:
     """Yield a line for each two performers that came too near: when, and who gave way how far."""

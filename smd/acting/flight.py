@@ -12,13 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from smd.acting.move import Move
-from smd.character.clip import Clip
-from smd.character.kinematics import joints_in_world
+from smd.acting.move import Airborne, Move, Playable
 from smd.doodle import Doodle
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.easing import fading
-from smd.transfer.repertoire import Piece
 
 GRAVITY_M_S2 = 9.81
 
@@ -79,10 +76,10 @@ class Flight:
     gathering_m_s, yielding_m_s : how much faster than the clip it rises at take-off and landing.
     gathering_s, yielding_s : over which that is gained and lost again.
     move : what it is part of.
-    body_m : (n,) height of the body in each of the clip's frames.
+    body_m : (n,) height of the body in each frame of what is played.
     """
 
-    move: Move
+    move: Move[Playable]
     body_m: FloatArray
     take_off_s: float
     landing_s: float
@@ -124,35 +121,34 @@ class Flight:
         return body_m, feet_m
 
 
-def apex_for(prop_rise_m: float, duration_s: float, own_apex_m: float) -> float:
+def apex_for(prop_rise_m: float | None, duration_s: float, own_apex_m: float) -> float:
     """Return how high a flight goes.
 
     It is the geometric mean of what the prop rose and of what a body thrown up for that time
-    does, g t² / 8; within `FLOATING` of the latter, and above all within ``LOWEST`` and
-    ``HIGHEST`` times the clip's own.
+    does, g t² / 8, or the latter alone where there is no prop; within `FLOATING` of the latter,
+    and above all within ``LOWEST`` and ``HIGHEST`` times the clip's own.
     """
     thrown_m = GRAVITY_M_S2 * duration_s**2 / 8.0
-    meant_m = np.sqrt(max(prop_rise_m, 0.0) * thrown_m)
+    meant_m = thrown_m if prop_rise_m is None else np.sqrt(max(prop_rise_m, 0.0) * thrown_m)
     meant_m = np.clip(meant_m, thrown_m / FLOATING, thrown_m * FLOATING)
     return float(np.clip(meant_m, LOWEST * own_apex_m, HIGHEST * own_apex_m))
 
 
-def flight_frames(piece: Piece, body_m: FloatArray) -> tuple[int, int] | None:
-    """Return the last frame before and the first one after a clip's one flight, if it has one.
+def airborne(body_m: FloatArray, touches: BoolArray) -> Airborne | None:
+    """Return the one flight of what is played, if it has one.
 
     Parameters
     ----------
     body_m
-        ``(n,)`` height of the body.
+        ``(k,)`` height of the joint that holds the legs.
+    touches
+        ``(k,)`` when anything touches the ground.
     """
-    if piece.clip.cyclic:
-        return None
-    touches = np.any([piece.clip.contacts.any(axis=1), *piece.stands.values()], axis=0)
     change = np.diff(touches.astype(np.int8))
     leaves, lands = np.flatnonzero(change < 0).tolist(), (np.flatnonzero(change > 0) + 1).tolist()
     lands = [frame for frame in lands if leaves and frame > leaves[0]]
     found = [pair for pair in zip(leaves, lands, strict=False) if _flies(body_m, *pair)]
-    return found[0] if len(found) == 1 else None
+    return Airborne(*found[0], body_m) if len(found) == 1 else None
 
 
 def _flies(body_m: FloatArray, first: int, last: int) -> bool:
@@ -160,29 +156,16 @@ def _flies(body_m: FloatArray, first: int, last: int) -> bool:
     return bool(over_m.max() > LEAST_APEX_M and over_m.min() > -LEAST_APEX_M)
 
 
-def flights(moves: Sequence[Move], height: Height, body: int) -> Iterator[Flight]:
-    """Yield the flights in the moves of a performer, as high as its doodle has them.
+def flights(moves: Sequence[Move[Playable]], height: Height | None) -> Iterator[Flight]:
+    """Yield the flights in the moves of a performer, as high as its prop was.
 
-    Parameters
-    ----------
-    body
-        The joint that holds the legs.
+    Where nothing says how high that was, they are as high as a body is thrown in their time.
     """
     for move in moves:
-        if move.idles or len(move.piece.clip) < 3:
+        flown = move.airborne
+        if move.idles or flown is None or flown.last > move.frame[-1]:
             continue
-        body_m = body_height(move.piece.clip, body)
-        frames = flight_frames(move.piece, body_m)
-        if frames is None or frames[1] > move.frame[-1]:
-            continue
-        yield _flight(move, height, body_m, *frames)
-
-
-def body_height(clip: Clip, body: int) -> FloatArray:
-    """Return how high a joint is in each frame of a clip ``(n,)``."""
-    return joints_in_world(clip.skeleton, [body], clip.rotation_xyzw, clip.translation_m)[1][
-        :, 0, 1
-    ]
+        yield _flight(move, height, flown)
 
 
 def raised(all_flights: Sequence[Flight], time_s: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -207,11 +190,13 @@ def _over_line_m(body_m: FloatArray, first: int, last: int) -> FloatArray:
     return body_m[first : last + 1] - np.linspace(body_m[first], body_m[last], last - first + 1)
 
 
-def _flight(move: Move, height: Height, body_m: FloatArray, first: int, last: int) -> Flight:
+def _flight(move: Move[Playable], height: Height | None, flown: Airborne) -> Flight:
+    first, last, body_m = flown.first, flown.last, flown.body_m
     take_off_s, landing_s = np.interp([first, last], move.frame, move.time_s)
     duration_s = landing_s - take_off_s
     own_apex_m = float(_over_line_m(body_m, first, last).max())
-    apex_m = apex_for(height.rise_m(move.start_s, move.end_s), duration_s, own_apex_m)
+    rise_m = None if height is None else height.rise_m(move.start_s, move.end_s)
+    apex_m = apex_for(rise_m, duration_s, own_apex_m)
     pace_hz = (last - first) / duration_s
     # Of the clip on the ground: before take-off and after landing, not across.
     leaving = pace_hz * _slope(body_m[max(first - 2, 0) : first + 1])

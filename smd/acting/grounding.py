@@ -10,6 +10,7 @@ import numpy as np
 from smd.acting.flight import LOWEST
 from smd.acting.footing import footing
 from smd.acting.legs import Leg, pelvis_of, sole_height, world_of, yaw_of
+from smd.acting.move import Footwork
 from smd.acting.slope import Slope
 from smd.acting.stepping import stepping
 from smd.character.ik import two_bone_ik
@@ -42,8 +43,7 @@ SINKING_S = 0.12
 def grounded(
     skeleton: Skeleton,
     poses: Poses,
-    stands: BoolArray,
-    pivot_rad: FloatArray,
+    footwork: Footwork,
     legs: Sequence[Leg],
     rate_hz: float,
     rise: Rise | None = None,
@@ -55,15 +55,14 @@ def grounded(
     ----------
     poses
         With the ground root in its place.
-    stands
-        ``(n, legs)`` when each foot should stand.
-    pivot_rad
-        ``(n, legs)`` how far each has turned by the clips' own will.
+    footwork
+        When each of the legs' feet should stand, and how it turns of its own will.
     rise
         How much higher than the poses body and feet go.
     slope
         What they stand on, where the ground is not level.
     """
+    stands, pivot_rad = footwork
     rise = rise or level(len(stands))
     raw = [world_of(skeleton, leg.foot, *poses) for leg in legs]
     own_hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]

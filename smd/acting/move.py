@@ -1,14 +1,14 @@
-"""Move: one span of the timeline, fitted to the doodle."""
+"""Move: something that is played for a while, where it goes, and how much of it is seen."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray
-from smd.transfer.repertoire import Piece
+from smd.character.poses import Poses
+from smd.geometry.arrays import BoolArray, FloatArray
 
 KNOT_RATE_HZ = 120.0
 """How densely a move is described; twice as dense as any clip or doodle of ours."""
@@ -21,23 +21,66 @@ class Placement(NamedTuple):
     heading_rad: float
 
 
+class Footwork(NamedTuple):
+    """What feet do: when each should stand, and how it turns of its own will.
+
+    Attributes
+    ----------
+    stands : (n, legs).
+    pivot_rad : (n, legs) which way each points over the ground, from wherever it began; only
+        differences count.
+    """
+
+    stands: BoolArray
+    pivot_rad: FloatArray
+
+
+class Playable(Protocol):
+    """What a move can play: a clip, or a blend of clips."""
+
+    def sampled(self, frame: FloatArray) -> Poses:
+        """Return local poses at fractional frames ``(n,)``, the ground root at its origin."""
+
+    def stands_at(self, frame: FloatArray) -> Footwork:
+        """Return what the character's legs do at fractional frames ``(n,)``; cycles add up."""
+
+
+PlayedT = TypeVar("PlayedT", bound=Playable, covariant=True)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class Move:
+class Airborne:
+    """The part of what is played in which nothing touches the ground.
+
+    Attributes
+    ----------
+    first, last : the frames before and after it.
+    body_m : (k,) height of the joint that holds the legs, in each frame of what is played.
+    """
+
+    first: int
+    last: int
+    body_m: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Move(Generic[PlayedT]):
     """What a character does from ``start_s`` to ``end_s``, described at knots.
 
     Attributes
     ----------
-    piece : what is seen.
+    piece : what is played.
     start_s, end_s : on the recording's clock.
     time_s : (k,) increasing; before the first and after the last knot, the move holds still.
     root_m : (k, 2) x and z of the ground root on the stage.
     heading_rad : (k,) of the ground root.
-    frame : (k,) of the clip, fractional, not decreasing; beyond the last frame of a cyclic one.
-    presence : (k,) in [0, 1], how much of the clip is seen; the rest is idling.
+    frame : (k,) of what is played, fractional, not decreasing; beyond the last frame of a cycle.
+    presence : (k,) in [0, 1], how much of it is seen; the rest is idling.
     idles : whether nothing is performed.
+    airborne : the part of its frames that flies, if one does.
     """
 
-    piece: Piece
+    piece: PlayedT
     start_s: float
     end_s: float
     time_s: FloatArray
@@ -46,6 +89,7 @@ class Move:
     frame: FloatArray
     presence: FloatArray
     idles: bool = False
+    airborne: Airborne | None = None
 
     @property
     def room_s(self) -> float:
@@ -67,11 +111,11 @@ class Move:
         return np.asarray(np.interp(time_s, self.time_s, self.heading_rad))
 
     def frame_at(self, time_s: FloatArray) -> FloatArray:
-        """Return the clip's fractional frame at some times."""
+        """Return the fractional frame of what is played at some times."""
         return np.asarray(np.interp(time_s, self.time_s, self.frame))
 
     def presence_at(self, time_s: FloatArray) -> FloatArray:
-        """Return how much of the clip is seen at some times."""
+        """Return how much of it is seen at some times."""
         return np.asarray(np.interp(time_s, self.time_s, self.presence))
 
 

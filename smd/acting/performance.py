@@ -2,48 +2,52 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import numpy as np
 
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
+from smd.character.poses import Poses
 from smd.doodle import Doodle
 from smd.errors import TransferError
-from smd.geometry.arrays import FloatArray, frozen_array
-from smd.score import Part, Score
+from smd.geometry.arrays import frozen_array
+from smd.score import Phrase
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Actor:
-    """A character acting out one device's doodles.
+    """A character, and what it does.
 
     Attributes
     ----------
-    device : whose doodles it performs.
+    name : unique in its performance; a device's where it acts out what somebody drew.
     character : what is seen.
-    rotation_xyzw : (n, j, 4) local joint rotations, a frame each, sign-continuous.
-    translation_m : (n, j, 3) local joint translations; joint 0 is the ground root in the world.
-    doodles : the device's doodles, at stage scale (metres of the character's world).
-    part : the phrases it performs.
+    poses : local, a frame each, rotations sign-continuous; joint 0 is the ground root in the world.
+    phrases : what it performs, in time order, where that has names.
+    doodles : what it was drawn with, at stage scale (metres of the character's world), if it was.
     """
 
-    device: str
+    name: str
     character: Character
-    rotation_xyzw: FloatArray
-    translation_m: FloatArray
-    doodles: tuple[Doodle, ...]
-    part: Part
+    poses: Poses
+    phrases: tuple[Phrase, ...] = ()
+    doodles: tuple[Doodle, ...] = ()
 
     def __post_init__(self) -> None:
         j = len(self.character.skeleton)
-        rotation = frozen_array("rotation_xyzw", self.rotation_xyzw, (None, j, 4), TransferError)
-        object.__setattr__(self, "rotation_xyzw", rotation)
-        object.__setattr__(
-            self,
-            "translation_m",
-            frozen_array("translation_m", self.translation_m, (len(rotation), j, 3), TransferError),
-        )
+        rotation, translation = self.poses
+        rotation = frozen_array("rotation_xyzw", rotation, (None, j, 4), TransferError)
+        shape = (len(rotation), j, 3)
+        translation = frozen_array("translation_m", translation, shape, TransferError)
+        object.__setattr__(self, "poses", Poses(rotation, translation))
+        object.__setattr__(self, "phrases", tuple(self.phrases))
+        object.__setattr__(self, "doodles", tuple(self.doodles))
+
+    def __len__(self) -> int:
+        return len(self.poses.rotation_xyzw)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,25 +57,36 @@ class Performance:
     Attributes
     ----------
     rate_hz : frames per second.
-    start_s : the recording's time at frame 0; frame i is at ``start_s + i / rate_hz``.
-    actors : one per performer of the Score; all with the same number of frames.
-    score : what they perform; its warnings are followed by those of acting it out.
+    start_s : time at frame 0, on the clock of phrases and doodles; frame i is at
+        ``start_s + i / rate_hz``.
+    actors : at least one; all with the same number of frames, and names of their own.
     terrain : what they go on; None for the level ground.
+    warnings : what a person should know before trusting it.
+    source : what it comes from, as text by name, for whoever makes it again: a Score's JSON is
+        its ``score``.
     """
 
     rate_hz: float
     start_s: float
     actors: tuple[Actor, ...]
-    score: Score
     terrain: Terrain | None = None
+    warnings: tuple[str, ...] = ()
+    source: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
             raise TransferError(f"rate_hz: expected a positive number, got {self.rate_hz!r}")
         if not self.actors:
             raise TransferError("performance: expected at least one actor, got none")
-        if len({len(actor.rotation_xyzw) for actor in self.actors}) > 1:
+        if len({len(actor) for actor in self.actors}) > 1:
             raise TransferError("performance: expected actors of one length")
+        names = [actor.name for actor in self.actors]
+        for name in names:
+            if names.count(name) > 1:
+                raise TransferError(f"performance: actor {name!r} appears twice")
+        object.__setattr__(self, "actors", tuple(self.actors))
+        object.__setattr__(self, "warnings", tuple(self.warnings))
+        object.__setattr__(self, "source", MappingProxyType(dict(self.source)))
 
     def __len__(self) -> int:
-        return len(self.actors[0].rotation_xyzw)
+        return len(self.actors[0])

@@ -171,7 +171,7 @@ def slope(
     flies: BoolArray,
     time_s: FloatArray,
     rate_hz: float,
-    device: str,
+    name: str,
 ) -> Slope:
     """Return the ground along a way.
 
@@ -182,6 +182,8 @@ def slope(
     flies
         ``(n,)`` when nothing touches the ground: the body then goes straight from where it left
         the ground to where it lands.
+    name
+        Of who goes there.
 
     Raises
     ------
@@ -196,7 +198,7 @@ def slope(
         if fault.any():
             at = int(np.argmax(fault))
             raise TransferError(
-                f"{terrain.name}: expected {expected} below {device!r} at {time_s[at]:.2f} s "
+                f"{terrain.name}: expected {expected} below {name!r} at {time_s[at]:.2f} s "
                 f"(x {root_m[at, 0]:.2f} m, z {root_m[at, 1]:.2f} m of the stage), found {found}"
             )
     touches = np.flatnonzero(~flies)

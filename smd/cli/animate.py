@@ -65,4 +65,4 @@ def animate(
 
     performance = written.write(score, act, expressiveness, output)
     said = f"{output}: {reading.summary(take, score)}"
-    typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
+    typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))

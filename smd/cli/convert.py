@@ -90,7 +90,7 @@ def convert(
 
         performance = written.write(score, act, expressiveness, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
-        typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
+        typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))
         for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
             typer.echo(f"  {line}")
 

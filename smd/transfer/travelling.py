@@ -40,7 +40,7 @@ def along_path(
     phase: float | None = None,
     from_gait: bool = False,
     into_gait: bool = False,
-) -> Move:
+) -> Move[Piece]:
     """Go along the path with a cyclic clip.
 
     What steps goes by the distance travelled, what never touches the ground by time.
@@ -98,7 +98,7 @@ def leap(
     at: Placement,
     *,
     pause_s: float = 0.0,
-) -> Move:
+) -> Move[Piece]:
     """Go along the path with a clip that travels once, such as a jump.
 
     The ground root follows the path, re-timed so that it moves during the clip's execution alone
@@ -132,6 +132,7 @@ def leap(
         heading_rad=nearest_turn(float(first), at.heading_rad) + share * (last - first),
         frame=frame,
         presence=np.ones(len(time_s)),
+        airborne=piece.airborne,
     )
 
 

@@ -124,11 +124,11 @@ def test_animate_bends_the_ways_and_says_so(library):
     spoken = (Phrase("walk", 1.0, 7.0),)
     score = Score((Part("fox", spoken), Part("wolf", spoken)))
     performance = animate(score, Recording((fox, wolf)), library)
-    first, second = (actor.translation_m[:, 0] for actor in performance.actors)
+    first, second = (actor.poses.translation_m[:, 0] for actor in performance.actors)
     assert np.linalg.norm(first - second, axis=-1).min() > 0.999 * least_distance_m(1.758, 1.758)
-    (line,) = [line for line in performance.score.warnings if line.startswith("devices")]
+    (line,) = [line for line in performance.warnings if line.startswith("devices")]
     assert line.startswith("devices 'fox' and 'wolf': at 4.0")
     assert "expected 0.53 m between them, found 0.10 m; they give way by up to 0." in line
     alone = animate(Score((Part("fox", spoken),)), Recording((fox, wolf)), library).actors[0]
-    assert first[:40] == pytest.approx(alone.translation_m[:40, 0], abs=1e-9)
-    assert first[-24:] == pytest.approx(alone.translation_m[-24:, 0], abs=1e-9)
+    assert first[:40] == pytest.approx(alone.poses.translation_m[:40, 0], abs=1e-9)
+    assert first[-24:] == pytest.approx(alone.poses.translation_m[-24:, 0], abs=1e-9)

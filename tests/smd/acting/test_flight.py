@@ -9,8 +9,6 @@ from smd.acting.flight import (
     LOWEST,
     Height,
     apex_for,
-    body_height,
-    flight_frames,
     flights,
 )
 from smd.acting.legs import feet_of, legs_of, sole_height, world_of
@@ -51,6 +49,7 @@ def move_of(piece, start_s, end_s):
         heading_rad=np.zeros(n),
         frame=np.linspace(0.0, piece.last_frame, n),
         presence=np.ones(n),
+        airborne=piece.airborne,
     )
 
 
@@ -70,14 +69,13 @@ def test_a_body_that_rises_as_far_as_gravity_has_it_goes_as_high_as_thrown():
     assert apex_for(0.0, 0.5, 0.3) == pytest.approx(LOWEST * 0.3)
     assert apex_for(0.0, 0.8, 0.3) == pytest.approx(GRAVITY_M_S2 * 0.8**2 / 8.0 / 3.0)
     assert apex_for(50.0, 0.5, 0.3) == pytest.approx(HIGHEST * 0.3)
+    assert apex_for(None, 0.5, thrown_m) == pytest.approx(thrown_m)
 
 
 def test_what_flies_is_what_leaves_the_ground_once_and_rises(library):
     fly = {}
     for name in ("jump", "leap", "roll", "walk", "run", "fly", "fall", "punch", "idle", "cheer"):
-        studied = piece(library, name)
-        hips = studied.clip.skeleton.index("hips")
-        fly[name] = flight_frames(studied, body_height(studied.clip, hips)) is not None
+        fly[name] = piece(library, name).airborne is not None
     assert [name for name, flies in fly.items() if flies] == ["jump", "leap"]
 
 
@@ -89,8 +87,7 @@ def test_a_flight_is_a_parabola_and_joins_the_clip_without_a_jump(library, name,
     s = np.clip((time_s - 1.0) / lasting_s, 0.0, 1.0)
     height = Height(time_s, 4.0 * rise_m * s * (1.0 - s))
     move = move_of(studied, 1.0, 1.0 + lasting_s)
-    hips = studied.clip.skeleton.index("hips")
-    (flight,) = flights([move], height, hips)
+    (flight,) = flights([move], height)
     body_m, feet_m = flight.raised_m(time_s)
     own_m = np.interp(move.frame_at(time_s), np.arange(len(studied.clip)), flight.body_m)
     flies = (time_s > flight.take_off_s) & (time_s < flight.landing_s)
@@ -122,14 +119,14 @@ def test_a_jump_is_as_high_as_drawn_and_its_feet_fly_as_long_as_its_body(
     skeleton, clip = library.character.skeleton, library.clip(name)
     legs, hips = legs_of(skeleton, feet_of(clip)), skeleton.index("hips")
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
-    body_m = body_height(clip, hips)
-    first, last = flight_frames(piece(library, name), body_m)
+    flown = piece(library, name).airborne
+    first, last, body_m = flown.first, flown.last, flown.body_m
     flown_s = lasting_s * (last - first) / (len(clip) - 1)  # the clip lasts as long as the phrase
     own_m = (body_m - np.interp(np.arange(len(clip)), [first, last], body_m[[first, last]])).max()
     apex_m = apex_for(stage.scale * rise_m, flown_s, own_m)
     assert LOWEST * own_m < apex_m < HIGHEST * own_m
 
-    local = actor.rotation_xyzw, actor.translation_m
+    local = actor.poses
     soles = [sole_height(leg, *world_of(skeleton, leg.foot, *local)) for leg in legs]
     airborne = np.flatnonzero(np.min(soles, axis=0) > 1e-3)
     assert np.min(soles) > -1e-3
@@ -159,14 +156,14 @@ def test_who_falls_from_a_height_falls_along_a_parabola_too(skeleton):
         contact_joints=("left_foot", "right_foot"),
         contacts=np.stack([touches, touches], axis=-1),
     )
-    studied = piece_of(clip, travels=False, legs=())
-    body_m = body_height(clip, 1)
-    assert flight_frames(studied, body_m) == (first, last)
+    studied = piece_of(clip, travels=False, legs=legs_of(skeleton, feet_of(clip)))
+    flown = studied.airborne
+    assert (flown.first, flown.last) == (first, last)
     time_s = np.linspace(0.0, 1.0, 1001)
-    (flight,) = flights([move_of(studied, 0.0, 1.0)], Height(time_s, 0.0 * time_s), 1)
+    (flight,) = flights([move_of(studied, 0.0, 1.0)], Height(time_s, 0.0 * time_s))
     raised_m, _ = flight.raised_m(time_s)
     falls = (time_s > first / 60.0) & (time_s < last / 60.0)
-    height_m = np.interp(60.0 * time_s, np.arange(n), body_m) + raised_m
+    height_m = np.interp(60.0 * time_s, np.arange(n), flown.body_m) + raised_m
     apex_m = apex_for(0.0, (last - first) / 60.0, 0.05)
     s = (time_s - first / 60.0) / ((last - first) / 60.0)
     expected_m = skeleton.rest_translation_m[1, 1] + 1.0 - s + 4.0 * apex_m * s * (1.0 - s)

@@ -5,6 +5,7 @@ import pytest
 
 from smd.acting.grounding import MOST_SINK_M, grounded
 from smd.acting.legs import feet_of, legs_of, world_of
+from smd.acting.move import Footwork
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses
 from smd.geometry.rotations import rotate
@@ -17,15 +18,14 @@ def study(library, name):
     clip = library.clip(name)
     legs = legs_of(clip.skeleton, feet_of(clip))
     piece = piece_of(clip, travels=True, legs=legs)
-    stands = np.stack([piece.stands[leg.foot] for leg in legs], axis=-1)
-    return clip, legs, stands, np.stack([piece.yaw_rad[leg.foot] for leg in legs], axis=-1)
+    return clip, legs, piece.stands, piece.yaw_rad
 
 
 @pytest.mark.parametrize("name", CLIPS)
 def test_a_clip_on_its_own_path_is_hardly_touched(library, name):
     clip, legs, stands, pivot = study(library, name)
     raw = Poses(clip.rotation_xyzw, clip.translation_m)
-    done = grounded(clip.skeleton, raw, stands, pivot, legs, clip.rate_hz)
+    done = grounded(clip.skeleton, raw, Footwork(stands, pivot), legs, clip.rate_hz)
     before = forward_kinematics(clip.skeleton, *raw)[1]
     after = forward_kinematics(clip.skeleton, *done)[1]
     assert np.linalg.norm(after - before, axis=-1).max() < 0.025
@@ -42,7 +42,7 @@ def test_on_a_longer_or_shorter_way_planted_soles_stand_still(library, name, str
     travel = clip.translation_m[last, 0] - clip.translation_m[0, 0]
     translation[:, 0] = stretch * (translation[:, 0] + lap * travel)
     raw = Poses(clip.rotation_xyzw[rows], translation)
-    done = grounded(clip.skeleton, raw, stands[rows], pivot[rows], legs, clip.rate_hz)
+    done = grounded(clip.skeleton, raw, Footwork(stands[rows], pivot[rows]), legs, clip.rate_hz)
     slides = []
     for leg, on in zip(legs, stands[rows].T, strict=True):
         q, ankle = world_of(clip.skeleton, leg.foot, *done)
@@ -63,7 +63,7 @@ def test_the_body_sinks_no_further_than_it_may(library):
     translation = clip.translation_m.copy()
     translation[:, 0] *= 3.0
     raw = Poses(clip.rotation_xyzw, translation)
-    done = grounded(clip.skeleton, raw, stands, pivot, legs, clip.rate_hz)
+    done = grounded(clip.skeleton, raw, Footwork(stands, pivot), legs, clip.rate_hz)
     hips = clip.skeleton.index("hips")
     sunk = raw.translation_m[:, hips, 1] - done.translation_m[:, hips, 1]
     assert sunk.min() > -1e-12
@@ -73,7 +73,7 @@ def test_the_body_sinks_no_further_than_it_may(library):
 def test_above_the_legs_nothing_turns(library):
     clip, legs, stands, pivot = study(library, "walk")
     raw = Poses(clip.rotation_xyzw, 0.8 * clip.translation_m)
-    done = grounded(clip.skeleton, raw, stands, pivot, legs, clip.rate_hz)
+    done = grounded(clip.skeleton, raw, Footwork(stands, pivot), legs, clip.rate_hz)
     of_legs = {joint for leg in legs for joint in (leg.upper, leg.lower, leg.foot)}
     others = [joint for joint in range(len(clip.skeleton)) if joint not in of_legs]
     assert (done.rotation_xyzw[:, others] == raw.rotation_xyzw[:, others]).all()
@@ -83,6 +83,7 @@ def test_a_character_without_legs_stays_as_it_is(library):
     clip = library.clip("fly")
     n = len(clip)
     raw = Poses(clip.rotation_xyzw, clip.translation_m)
-    done = grounded(clip.skeleton, raw, np.zeros((n, 0), bool), np.zeros((n, 0)), (), clip.rate_hz)
+    no_feet = Footwork(np.zeros((n, 0), bool), np.zeros((n, 0)))
+    done = grounded(clip.skeleton, raw, no_feet, (), clip.rate_hz)
     assert (done.rotation_xyzw == raw.rotation_xyzw).all()
     assert (done.translation_m == raw.translation_m).all()

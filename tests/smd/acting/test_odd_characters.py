@@ -129,11 +129,11 @@ def test_whatever_is_missing_of_a_body_it_acts_in_numbers(tmp_path, name, headin
     for ground in (None, hill):
         performance = smd.animate(score, recording, library, heading=heading, ground=ground)
         for actor in performance.actors:
-            assert np.isfinite(actor.translation_m).all()
-            length = np.linalg.norm(actor.rotation_xyzw, axis=-1)
+            assert np.isfinite(actor.poses.translation_m).all()
+            length = np.linalg.norm(actor.poses.rotation_xyzw, axis=-1)
             assert length == pytest.approx(np.ones(length.shape))
-        fox = performance.actors[0].translation_m[:, 0]
+        fox = performance.actors[0].poses.translation_m[:, 0]
         assert np.ptp(fox[:, 2]) > 2.0
         assert fox[:, 1] == pytest.approx(0.0 if ground is None else 0.1 * fox[:, 2], abs=0.08)
-        said = performance.score.warnings
+        said = performance.warnings
         assert any("walk at 4.00 s" in line and "on the spot" in line for line in said)

@@ -64,7 +64,7 @@ def soles(performance, library):
     (actor,) = performance.actors
     skeleton = library.character.skeleton
     for leg in legs_of(skeleton, feet_of(library.clip("walk"))):
-        local = actor.rotation_xyzw, actor.translation_m
+        local = actor.poses
         q, ankle = world_of(skeleton, leg.foot, *local)
         yield leg, q, ankle + rotate(q, leg.heel_m), ankle + rotate(q, leg.ball_m)
 
@@ -85,15 +85,17 @@ def clearance_m(performance, library, ground):
 def test_level_ground_is_no_terrain(library):
     flat = acted(library, None).actors[0]
     on = acted(library, terrain(lambda x, z: 0.0)).actors[0]
-    assert on.rotation_xyzw == pytest.approx(flat.rotation_xyzw, abs=1e-6)
-    assert on.translation_m == pytest.approx(flat.translation_m, abs=1e-6)
+    assert on.poses.rotation_xyzw == pytest.approx(flat.poses.rotation_xyzw, abs=1e-6)
+    assert on.poses.translation_m == pytest.approx(flat.poses.translation_m, abs=1e-6)
 
 
 def test_on_a_plateau_everything_is_as_much_higher(library):
     flat = acted(library, None).actors[0]
     on = acted(library, terrain(lambda x, z: 3.0)).actors[0]
-    assert on.rotation_xyzw == pytest.approx(flat.rotation_xyzw, abs=1e-6)
-    assert on.translation_m[:, 0] == pytest.approx(flat.translation_m[:, 0] + 3.0 * UP, abs=1e-6)
+    assert on.poses.rotation_xyzw == pytest.approx(flat.poses.rotation_xyzw, abs=1e-6)
+    assert on.poses.translation_m[:, 0] == pytest.approx(
+        flat.poses.translation_m[:, 0] + 3.0 * UP, abs=1e-6
+    )
 
 
 @pytest.mark.parametrize("percent", [-35, -18, 18, 35])
@@ -133,7 +135,7 @@ def test_over_steps_and_bumps_no_sole_is_in_the_ground(library, relief, step_m, 
     performance = acted(library, ground, action=action, speed_m_s=abs(speed))
     assert clearance_m(performance, library, ground).min() > -5e-3
     (actor,) = performance.actors
-    body = actor.translation_m[:, 0, 1] + actor.translation_m[:, 1, 1]
+    body = actor.poses.translation_m[:, 0, 1] + actor.poses.translation_m[:, 1, 1]
     assert np.abs(np.diff(body, 2)).max() * RATE_HZ**2 < 25.0
     for _, _, heel, _ in soles(performance, library):
         assert np.abs(np.diff(heel[:, 1])).max() * RATE_HZ < 8.0
@@ -142,12 +144,12 @@ def test_over_steps_and_bumps_no_sole_is_in_the_ground(library, relief, step_m, 
 def test_turning_ground_and_prop_turns_the_performance(library):
     straight = acted(library, terrain(bumps)).actors[0]
     turned = acted(library, terrain(bumps, turn_rad=0.7), turn_rad=0.7).actors[0]
-    turn = np.broadcast_to(quaternion_about(UP, 0.7), (len(straight.translation_m), 4))
-    assert turned.translation_m[:, 0] == pytest.approx(
-        rotate(turn, straight.translation_m[:, 0]), abs=1e-6
+    turn = np.broadcast_to(quaternion_about(UP, 0.7), (len(straight.poses.translation_m), 4))
+    assert turned.poses.translation_m[:, 0] == pytest.approx(
+        rotate(turn, straight.poses.translation_m[:, 0]), abs=1e-6
     )
-    assert np.abs(turned.rotation_xyzw[:, 1:]) == pytest.approx(
-        np.abs(straight.rotation_xyzw[:, 1:]), abs=1e-5
+    assert np.abs(turned.poses.rotation_xyzw[:, 1:]) == pytest.approx(
+        np.abs(straight.poses.rotation_xyzw[:, 1:]), abs=1e-5
     )
 
 

@@ -394,10 +394,12 @@ def test_a_performance_with_the_dial_at_0_is_neutral_and_above_it_is_not():
     neutral = smd.animate(score, recording, LIBRARY, expressiveness=0.0)
     played_ = smd.animate(score, recording, LIBRARY)
     assert read_score(RECORDINGS / "postman.score.json").performers  # it has phrases
-    apart = np.abs(neutral.actors[0].rotation_xyzw - played_.actors[0].rotation_xyzw)
+    apart = np.abs(neutral.actors[0].poses.rotation_xyzw - played_.actors[0].poses.rotation_xyzw)
     assert apart.max() > 0.05
     # the same way, each place of it at another moment
-    way, there = (actor.translation_m[:, 0] for actor in (neutral.actors[0], played_.actors[0]))
+    way, there = (
+        actor.poses.translation_m[:, 0] for actor in (neutral.actors[0], played_.actors[0])
+    )
     step = np.diff(way, axis=0)
     along = np.einsum("nmi,mi->nm", there[:, None] - way[:-1], step) / (
         np.einsum("mi,mi->m", step, step) + 1e-12

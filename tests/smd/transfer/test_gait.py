@@ -21,7 +21,7 @@ def test_feet_pass_where_one_is_half_through_the_air(make_piece):
         left_stands=(0.0, 0.6),
         right_stands=(0.5, 0.99),
     )
-    left, right = piece.stands
+    left, right = piece.touching
     (first, second) = piece.gait.passings
     assert (first.foot, second.foot) == (right, left)
     assert first.phase == pytest.approx(0.245, abs=0.011)
