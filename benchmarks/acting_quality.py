@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from actions_library.cast import cast_of
 from actions_library.library import Library
 from smd.acting.legs import feet_of, legs_of
 from smd.acting.move import Move
 from smd.acting.moving import Idling, own_poses, rows_of, stepped
 from smd.acting.performance import Actor, Performance
 from smd.acting.standing import standing
+from smd.cast import cast_of
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.poses import Poses

@@ -14,11 +14,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
     from actions_library.folder import load_library
     from actions_library.stage_frame import StageFrame
     from exporters import write
     from smd.acting.performance import Performance
+    from smd.cast import Cast
     from smd.doodle import Doodle, Recording
     from smd.errors import SmdError
     from smd.formats import SourceFrame, read_recording, write_recording
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from smd.smoothing import smooth
 
 _HOME = {
-    "Cast": "actions_library.cast",
+    "Cast": "smd.cast",
     "Doodle": "smd.doodle",
     "Performance": "smd.acting.performance",
     "Phrase": "smd.score",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -189,20 +188,3 @@ def _ranges(start: IntArray, count: IntArray) -> IntArray:
     """Return the indices ``start … start + count - 1`` of each, one after the other."""
     ends = np.cumsum(count)
     return np.arange(int(count.sum())) - np.repeat(ends - count, count) + np.repeat(start, count)
-
-
-def read_terrain(path: Path | str) -> Terrain:
-    """Read a terrain from the meshes of a USD file.
-
-    Its origin is the stage's: the middle of the devices' first places.
-
-    Raises
-    ------
-    ImportedFileError
-        If it is no USD file, or holds no mesh.
-    TransferError
-        If no part of it is level enough to stand on.
-    """
-    from actions_library.importers.usd_ground import read_ground
-
-    return Terrain(*read_ground(path), name=str(path))

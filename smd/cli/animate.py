@@ -36,7 +36,7 @@ def animate(
     It is played on its recording's path and in its timing.
     """
     import smd
-    from smd.acting.terrain import read_terrain
+    from actions_library.importers.usd_ground import read_terrain
     from smd.errors import ScoreError
     from smd.score_file import read_score
 

@@ -51,7 +51,7 @@ def convert(
     A file in, a file out; a folder in, a folder out.
     """
     import smd
-    from smd.acting.terrain import read_terrain
+    from actions_library.importers.usd_ground import read_terrain
 
     files = list(reading.recording_files(recordings))
     suffix = suffix if suffix.startswith(".") else f".{suffix}"

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from actions_library.library import IDLE
 from smd.acting.move import Move, Placement, nearest_turn
+from smd.cast import IDLE
 from smd.score import Phrase
 from smd.transfer.gait import phase_after
 from smd.transfer.in_place import Facing, facing, gesture, idling, turn, turn_passes, turns

@@ -9,14 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from actions_library.cast import Cast, cast_of
-from actions_library.library import Library
 from smd.acting.act import Frames, act
 from smd.acting.company import apart, encounters
 from smd.acting.move import Move
 from smd.acting.moving import Idling
 from smd.acting.performance import Performance
 from smd.acting.terrain import Terrain
+from smd.cast import ActionLibrary, Cast, cast_of
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
@@ -40,7 +39,7 @@ BEYOND_S = 0.05
 def perform(
     score: Score,
     recording: Recording,
-    library: Library | Cast,
+    library: ActionLibrary | Cast,
     *,
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
@@ -128,9 +127,9 @@ def perform(
     return Performance(rate_hz, start_s, actors, terrain, warnings, source)
 
 
-def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library, Repertoire]:
+def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[ActionLibrary, Repertoire]:
     """Return what can be performed with each library of a cast, in this Score."""
-    phrases: dict[Library, list[Phrase]] = {}
+    phrases: dict[ActionLibrary, list[Phrase]] = {}
     for part in score.performers:
         phrases.setdefault(cast.of(part.device), []).extend(part.phrases)
     return {
@@ -139,7 +138,7 @@ def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library
     }
 
 
-def check_part(part: Part, recording: Recording, library: Library) -> None:
+def check_part(part: Part, recording: Recording, library: ActionLibrary) -> None:
     """Raise ScoreError unless a part's device, actions and times are there."""
     if part.device not in recording.devices:
         raise ScoreError(

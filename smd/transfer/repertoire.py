@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from actions_library.library import IDLE, Library
 from laban import Effort
 from smd.acting.flight import airborne
 from smd.acting.legs import Leg, feet_of, legs_of, pelvis_of, yaw_of
 from smd.acting.move import Airborne, Footwork
 from smd.acting.standing import standing
+from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.poses import Poses, sampled
@@ -133,7 +133,9 @@ def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
     return " ".join([action, *(f"{axis} {value:+.1f}" for axis, value in shown.items() if value)])
 
 
-def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: float) -> Repertoire:
+def repertoire(
+    library: ActionLibrary, phrases: Iterable[Phrase], *, expressiveness: float
+) -> Repertoire:
     """Study the clips of some phrases, as they are played, and of idling."""
     phrases = list(phrases)
     actions = {phrase.action for phrase in phrases}
@@ -160,7 +162,7 @@ def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: f
     return Repertoire(pieces, legs, rests, leaving, expressiveness)
 
 
-def _leaving(library: Library, rests: set[str]) -> dict[str, str]:
+def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
     """Return the action that leads out of each rest: its clip begins there, and ends elsewhere."""
     found = {}
     for rest in sorted(rests):

@@ -5,7 +5,8 @@ import pytest
 from pxr import Gf, Usd, UsdGeom
 from scipy.spatial import Delaunay
 
-from smd.acting.terrain import Terrain, read_terrain
+from actions_library.importers.usd_ground import read_terrain
+from smd.acting.terrain import Terrain
 from smd.errors import ImportedFileError, TransferError
 from tests.naive.triangles import height_over
 

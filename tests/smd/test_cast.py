@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from actions_library.cast import Cast, cast_of
 from actions_library.folder import load_library
+from smd.cast import Cast, cast_of
 from smd.errors import LibraryError, ScoreError
 from smd.formats import read_recording
 from smd.pipeline import animate, parse
