@@ -14,9 +14,9 @@ from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.recognition.recognizer import Span
 from smd.recognition.segmentation import Segment
-from smd.recognition.smoothing_stream import Arrays, SmoothingStream
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun
+from smd.smoothing_stream import Arrays, SmoothingStream
 
 
 class Spotter(Protocol):
