@@ -25,7 +25,7 @@ from smd.formats import SourceFrame, read_recording
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition import Recognizer
-from smd.recognition.recognizer import Span
+from smd.recognition.token_spotter import Span
 from smd.smoothing import smooth
 from smd.synthetic.efforts import labelled_takes
 from smd.synthetic.stories import STORIES

@@ -15,8 +15,8 @@ from laban import RigidMotion
 from smd.doodle import Doodle
 from smd.recognition import Recognizer
 from smd.recognition.bank import compile_library
-from smd.recognition.recognizer import Span, TokenSpotter
 from smd.recognition.streaming import HORIZON_S, RecognitionStream, Spotter
+from smd.recognition.token_spotter import Span, TokenSpotter
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 from smd.synthetic.strokes import GESTURES, simulated_person

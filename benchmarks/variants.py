@@ -12,7 +12,7 @@ from smd.recognition.acceptance import Intent
 from smd.recognition.action import Action
 from smd.recognition.costs import RunCosts
 from smd.recognition.proposals import Proposal
-from smd.recognition.spotting import Stretch
+from smd.recognition.recognizer import Stretch
 from smd.recognition.tokens import TokenRun
 
 

@@ -23,7 +23,7 @@ from smd.smoothing import smooth
 
 if TYPE_CHECKING:
     from actions_library.cast import Cast
-    from smd.recognition.spotting import Recognizer
+    from smd.recognition.recognizer import Recognizer
     from smd.score import Score
 
 AS_STRICT = float(np.exp(OTHERS_MARGIN[Intent.DRAWN] - OTHERS_MARGIN[Intent.FREE]))

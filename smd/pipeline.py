@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from actions_library.library import Library
     from laban import EffortModel, RigidMotion
     from smd.doodle import Doodle, Recording
-    from smd.recognition.recognizer import Span
-    from smd.recognition.spotting import Recognizer
+    from smd.recognition.recognizer import Recognizer
     from smd.recognition.suggestions import Understood
+    from smd.recognition.token_spotter import Span
     from smd.score import Phrase, Score, Suggestion
     from smd.transfer.performance import Performance
     from smd.transfer.terrain import Terrain

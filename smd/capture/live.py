@@ -19,7 +19,7 @@ from smd.formats.frame import Mount
 from smd.geometry.rotations import multiply, rotate
 from smd.recognition import Recognizer
 from smd.recognition.acceptance import Intent
-from smd.recognition.recognizer import Span
+from smd.recognition.token_spotter import Span
 
 KEPT_S = 60.0
 """So much movement is kept for a phrase that is not decided yet."""

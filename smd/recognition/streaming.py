@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.recognition.recognizer import Span
 from smd.recognition.segmentation import Segment
+from smd.recognition.token_spotter import Span
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun
 from smd.smoothing_stream import Arrays, SmoothingStream

@@ -14,8 +14,8 @@ from smd.recognition.acceptance import Intent
 from smd.recognition.action import Action
 from smd.recognition.matching import Match
 from smd.recognition.reasons import OUTDONE, reason_of
-from smd.recognition.recognizer import Span
-from smd.recognition.spotting import WORTH_NAMING, Recognizer
+from smd.recognition.recognizer import WORTH_NAMING, Recognizer
+from smd.recognition.token_spotter import Span
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of_parts
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from laban import RigidMotion
 from smd.doodle import Doodle
-from smd.recognition.recognizer import Span
 from smd.recognition.streaming import BLOCK_S, HORIZON_S, SOON_S, STEP_S, Spotter
+from smd.recognition.token_spotter import Span
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
 from smd.smoothing import RATE_HZ, WINDOW_S, smooth

@@ -8,8 +8,8 @@ from smd.recognition.bank import compile_library
 from smd.recognition.costs import DEFAULT_COSTS
 from smd.recognition.greedy import MOST_EDITS, MOST_WRONG, longest_match_segments
 from smd.recognition.pattern import Pattern
-from smd.recognition.recognizer import recognize
 from smd.recognition.segmentation import Segment
+from smd.recognition.token_spotter import recognize
 from smd.recognition.tokens import Token, TokenRun
 
 PATTERNS = {
