@@ -20,9 +20,9 @@ from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import Exemplar
+from smd.recognition.loose_ends import with_loose_ends
 from smd.recognition.proposals import Proposal, explaining, rest_to_rest, without_stir
 from smd.recognition.segmentation import Segment
-from smd.recognition.token_spotter import with_loose_ends
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import TokenRun
 from smd.recognition.traits import COURSES, traits_of_parts

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from actions_library.library import Library
     from laban import EffortModel, RigidMotion
     from smd.doodle import Doodle, Recording
+    from smd.recognition.detection import Detection
     from smd.recognition.recognizer import Recognizer
     from smd.recognition.suggestions import Understood
-    from smd.recognition.token_spotter import Span
     from smd.score import Phrase, Score, Suggestion
     from smd.transfer.performance import Performance
     from smd.transfer.terrain import Terrain
@@ -185,7 +185,9 @@ def _without_examples(cast: Cast) -> Iterator[str]:
         )
 
 
-def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> Iterator[Phrase]:
+def _phrases(
+    played: Sequence[tuple[Detection, RigidMotion]], model: EffortModel
+) -> Iterator[Phrase]:
     """Yield what one performer says; times to the millisecond, as a Score's file keeps them.
 
     Each phrase's Effort is read of the phrase alone, as it is while somebody plays: what else they

@@ -1,9 +1,9 @@
-"""TokenSpotter: from runs of tokens to spans of actions."""
+"""TokenSpotter: from runs of tokens to actions, by the tokens alone."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,33 +11,11 @@ from laban import RigidMotion
 from smd.geometry.arrays import FloatArray
 from smd.recognition.bank import Bank, compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, Costs, run_costs
+from smd.recognition.detection import Detection
+from smd.recognition.loose_ends import with_loose_ends
 from smd.recognition.pattern import Pattern
 from smd.recognition.segmentation import Segment, Segmenter, least_cost_segments
 from smd.recognition.tokens import TokenRun
-
-
-@dataclass(frozen=True, slots=True)
-class Span:
-    """A stretch of runs that is one action.
-
-    Attributes
-    ----------
-    action : its name.
-    first_run, last_run : runs ``first_run`` (included) to ``last_run`` (excluded).
-    start_s, end_s : where the first of them begins and the last one ends.
-    distance : from the runs to the action's pattern, in edits.
-    confidence : in [0, 1], see `recognize`.
-    alternatives : the other actions and their distances, nearest first.
-    """
-
-    action: str
-    first_run: int
-    last_run: int
-    start_s: float
-    end_s: float
-    distance: float
-    confidence: float
-    alternatives: tuple[tuple[str, float], ...]
 
 
 def recognize(
@@ -46,7 +24,7 @@ def recognize(
     *,
     costs: Costs = DEFAULT_COSTS,
     segments: Segmenter = least_cost_segments,
-) -> tuple[Span, ...]:
+) -> tuple[Detection, ...]:
     """Find the actions in a tokenized doodle.
 
     The runs are cut into actions and unexplained rest, by default at the least total cost: every
@@ -78,7 +56,7 @@ def recognize(
 
     Returns
     -------
-    tuple of Span
+    tuple of Detection
         In time order, without overlap; each begins and ends with a moving run.
 
     References
@@ -87,7 +65,7 @@ def recognize(
     """
     bank = library if isinstance(library, Bank) else compile_library(library)
     whole = with_loose_ends(segments(bank, runs, costs), runs)
-    return tuple(spans_of(bank, runs, whole, costs))
+    return tuple(detections_of(bank, runs, whole, costs))
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,25 +87,25 @@ class TokenSpotter:
 
     def named(
         self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
-    ) -> list[Span]:
-        """Return the spans of stretches of runs; the motion is not looked at."""
-        return spans_of(self.bank, runs, segments, self.costs)
+    ) -> list[Detection]:
+        """Return the detections of stretches of runs; the motion is not looked at."""
+        return detections_of(self.bank, runs, segments, self.costs)
 
 
-def spans_of(
+def detections_of(
     bank: Bank, runs: Sequence[TokenRun], segments: Sequence[Segment], costs: Costs
-) -> list[Span]:
-    """Return the spans of segments that have their loose ends, weighed by tokens alone."""
+) -> list[Detection]:
+    """Return the detections of segments that have their loose ends, weighed by tokens alone."""
     prices = run_costs(runs, costs)
     read = prices.of_reading(bank, runs)
     parts = [(one.first, one.last) for one in segments]
     distances = least_costs_of_parts(bank, parts, read=read, skip=prices.skip)
-    spans = []
+    found = []
     for one, distance in zip(segments, distances, strict=True):
         nothing = float(prices.unexplained[one.first : one.last].sum()) - costs.action
         nearest = np.argsort(distance, kind="stable").tolist()
-        spans.append(
-            Span(
+        found.append(
+            Detection(
                 action=bank.names[one.index],
                 first_run=one.first,
                 last_run=one.last,
@@ -140,42 +118,9 @@ def spans_of(
                 ),
             )
         )
-    return spans
+    return found
 
 
 def _share(chosen: int, cost: FloatArray, sharpness: float) -> float:
     """Return the weight of one explanation among all."""
     return float(1.0 / np.exp(-sharpness * (cost - cost[chosen])).sum())
-
-
-def with_loose_ends(segments: Sequence[Segment], runs: Sequence[TokenRun]) -> list[Segment]:
-    """Return the segments with the unexplained runs beside them that belong to them.
-
-    A hand that sets out or arrives is slow, and its direction uncertain: a run that goes the way
-    of the one it leads to, and is not the largest, is of one movement with the rest.
-    """
-    grown: list[Segment] = []
-    for i, segment in enumerate(segments):
-        first, last = segment.first, segment.last
-        start = grown[-1].last if grown else 0
-        end = segments[i + 1].first if i + 1 < len(segments) else len(runs)
-        largest = max(_extent(run) for run in runs[first:last])
-        while first > start and _leads_into(runs[first - 1], runs[first], largest):
-            first -= 1
-        while last < end and _leads_into(runs[last], runs[last - 1], largest):
-            last += 1
-        grown.append(replace(segment, first=first, last=last))
-    return grown
-
-
-def _leads_into(run: TokenRun, neighbour: TokenRun, largest: float) -> bool:
-    """Tell whether a run is within a right angle of its neighbour's way, and not too large."""
-    a, b = run.token, neighbour.token
-    ours, theirs = (*a.translation, *a.rotation), (*b.translation, *b.rotation)
-    same_way = sum(x * y for x, y in zip(ours, theirs, strict=True)) > 0
-    return same_way and _extent(run) < largest
-
-
-def _extent(run: TokenRun) -> float:
-    """Return how much movement is in a run."""
-    return run.travel_heights + run.turn_rad
