@@ -2,7 +2,7 @@
 
 Composed sessions (`benchmarks.composed`) of people 8 to 14 with the pauses of nine idle hands;
 ``--develop`` takes people 1 to 7 and nine others, and is the one to choose by. Beside ours stand a
-plain spotter by warping (`benchmarks.spotter`) and the form with limits (`benchmarks.limits`), on
+plain spotter by warping (`benchmarks.plain_spotter`) and the form with limits (`benchmarks.limits`), on
 the same sessions in the same run. Goals: F1 0.05 above the plain spotter and twice that with
 limits; with the trigger held 92 % of the known takes found, and at tolerance 0.8 half of the others
 left alone; 0.3 false a minute in idle hands where 70 % of drawn takes are found.
@@ -40,7 +40,7 @@ from benchmarks.guards import (
     spans_in,
 )
 from benchmarks.limits import LimitRecognizer
-from benchmarks.spotter import Spotter
+from benchmarks.plain_spotter import Spotter
 from benchmarks.tally import Tally, f1_gain_interval, f1_interval, tally
 from benchmarks.variants import VARIANTS
 from smd.doodle import Doodle

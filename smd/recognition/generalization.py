@@ -6,7 +6,13 @@ from collections.abc import Sequence
 
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import UNLIKE, Place, Stroke, laid_side_by_side, token_distances
+from smd.recognition.progressive_alignment import (
+    UNLIKE,
+    Place,
+    Stroke,
+    laid_side_by_side,
+    token_distances,
+)
 from smd.recognition.simplification import Group, simplified
 from smd.recognition.tokens import STILL, Token
 

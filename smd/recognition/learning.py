@@ -10,7 +10,7 @@ from smd.errors import DoodleError, LearningError
 from smd.recognition.average import average_doodle
 from smd.recognition.generalization import generalized, main_token, pattern_of, stranger, ways_of
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import Stroke
+from smd.recognition.progressive_alignment import Stroke
 from smd.recognition.simplification import Group
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun

@@ -13,7 +13,7 @@ from smd.recognition.automaton import compile_automaton, edit_distance
 from smd.recognition.generalization import generalized, pattern_of, ways_of
 from smd.recognition.learning import doodle_runs, learn_pattern, without_rest
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import Stroke
+from smd.recognition.progressive_alignment import Stroke
 from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
 from smd.synthetic.efforts import ACTIONS

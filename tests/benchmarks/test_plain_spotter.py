@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.composed import RATE_HZ, compose, resampled
-from benchmarks.spotter import Spotter, best_apart, parting_threshold
+from benchmarks.plain_spotter import Spotter, best_apart, parting_threshold
 from benchmarks.tally import Named
 from tests.benchmarks.conftest import stroke
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from smd.recognition.places import Stroke, laid_side_by_side, token_distance
+from smd.recognition.progressive_alignment import Stroke, laid_side_by_side, token_distance
 from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
 
