@@ -1,4 +1,4 @@
-"""Tokenizer: from a smooth motion to runs of tokens, in the prop's own frame."""
+"""Tokenizer: from a smooth motion to runs of tokens, along the prop's own axes."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def tokenize(
 ) -> tuple[TokenRun, ...]:
     """Cut a motion into runs of one token each (section 4.1 of the paper [1]_).
 
-    The prop's velocity is read in its own frame and its angular velocity in the body's, so where
+    The prop's velocity is read along its own axes and its angular velocity in the body's, so where
     the user stands and faces does not matter. Each is put in the nearest of 26 directions, or in
     none where it is not meant: too slow, or explained by the other one (turning about a point
     beside the prop's centre moves it; an arm that swings turns it).

@@ -1,4 +1,4 @@
-"""Tokens: the direction in which a prop moves and turns, in its own frame."""
+"""Tokens: the direction in which a prop moves and turns, along its own axes."""
 
 from __future__ import annotations
 

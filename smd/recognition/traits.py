@@ -157,7 +157,7 @@ def fitted(
     """Return shapes turned to fit another one better, within what hands leave open.
 
     A hand shows where it faces only roughly, and holds the prop a little askew. Both are constant
-    turns, about the world's up axis and in the prop's own frame, and are taken away, up to a
+    turns, about the world's up axis and along the prop's own axes, and are taken away, up to a
     limit. The first brings simultaneous points nearest to each other: it is the angle of the sum
     of their products, as complex numbers of the level plane. The second follows from the sum of
     the cross products of simultaneous axes, which for one constant turn is its sine times its axis.
