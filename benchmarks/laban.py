@@ -24,8 +24,9 @@ from benchmarks.process import picture_folder, run
 from laban import AXES, EffortModel, EffortStream, RigidMotion, load_effort_model, read_effort
 from laban.committee import folds
 from laban.description import describe
+from laban.effort import POLES
 from laban.features import effort_features
-from laban.model import POLES, effort_of
+from laban.model import effort_of
 from laban.naive_bayes import fit_papers_method
 from laban.own import OwnMeasure, measure_of
 from laban.training import AxisReport, Training

@@ -14,8 +14,8 @@ import numpy as np
 
 from laban import AXES, Effort, EffortModel, OwnMeasure, RigidMotion
 from laban.description import DESCRIPTION_NAMES, describe
-from laban.effort import LabanError
-from laban.model import NEUTRAL, POLES, effort_of, state_of
+from laban.effort import NEUTRAL, POLES, LabanError
+from laban.model import effort_of, state_of
 from laban.own import FEWEST_TAKES, own_measure
 from laban.reader import Reader
 from laban.stillness import is_readable, movements

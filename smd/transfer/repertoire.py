@@ -9,6 +9,7 @@ import numpy as np
 
 from actions_library.library import IDLE, Library
 from laban import Effort
+from laban.effort import EFFORT_STEPS
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.geometry.arrays import BoolArray, FloatArray
@@ -103,10 +104,6 @@ class Repertoire:
     def rest_after(self, action: str) -> str:
         """Return the action whose clip is idled in after another one."""
         return self.rests.get(action, IDLE)
-
-
-EFFORT_STEPS = {"time": 5, "weight": 5, "space": 2, "flow": 2}
-"""Steps from neutral to a pole in which an axis is played: phrases that are nearer share a clip."""
 
 
 def played_effort(effort: Effort, expressiveness: float) -> Effort:
