@@ -187,7 +187,7 @@ STATES = ("alone", "states")
         (("trained_on",), None, "trained_on: got null"),
         (("axes",), {}, "axes: expected at least one"),
         (("axes",), [], "axes: got a list"),
-        (("axes", "mood"), {}, "axes: expected some of time, weight, space, flow, got 'mood'"),
+        (("axes", "mood"), {}, f"axes: expected some of {', '.join(AXES)}, got 'mood'"),
         (TIME, 3, r"axes.time: got the number 3"),
         (("alone",), [], "alone: got a list"),
         (("alone", "entries"), [], "alone.entries: expected at least one"),
