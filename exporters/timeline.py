@@ -21,8 +21,9 @@ from exporters.palette import IDLE_RGB, RGB, action_colors, effort_color
 from laban import AXES, EffortCurve, RigidMotion, effort_over_time, load_effort_model
 from smd.errors import DoodleError
 from smd.files import replacing
+from smd.recognition.alphabet import Direction
 from smd.recognition.tokenizer import tokenize
-from smd.recognition.tokens import Direction, Token, TokenRun
+from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth
 
 if TYPE_CHECKING:

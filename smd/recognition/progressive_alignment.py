@@ -8,10 +8,9 @@ from functools import cache
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray, IntArray
-from smd.geometry.rotations import normalized
-from smd.recognition.tokenizer import DIRECTIONS, NONE
-from smd.recognition.tokens import Token
+from smd.geometry.arrays import FloatArray
+from smd.recognition.alphabet import NONE, angles_rad
+from smd.recognition.tokens import Token, bins_of
 
 UNLIKE = 1.0 - 1e-9
 """Tokens at this distance or more have nothing in common; the sums of shares round."""
@@ -66,7 +65,7 @@ def token_distances(tokens: Sequence[Token], others: Sequence[Token]) -> FloatAr
     else.
     """
     total, parts = np.zeros((2, len(tokens), len(others)))
-    for ours, theirs in zip(_bins(tokens), _bins(others), strict=True):
+    for ours, theirs in zip(bins_of(tokens), bins_of(others), strict=True):
         total += _apart()[np.ix_(ours, theirs)]
         parts += (ours[:, None] != NONE) | (theirs != NONE)
     return total / np.maximum(parts, 1.0)
@@ -117,24 +116,13 @@ def progressively_aligned(sequences: Sequence[Sequence[WeightedToken]]) -> tuple
     return tuple(Column(tuple(column[i] for i in back)) for column in columns)
 
 
-def _bins(tokens: Sequence[Token]) -> IntArray:
-    """Return ``(2, n)``: the bins of the tokens' translations and of their rotations."""
-    pairs = [(_INDEX[token.translation], _INDEX[token.rotation]) for token in tokens]
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T
-
-
-_INDEX = {direction: index for index, direction in enumerate(DIRECTIONS)}
-
-
 @cache
 def _apart() -> FloatArray:
     """Return ``(27, 27)``: the angle between directions over a right one, at most 1.
 
     It is 1 where only one of them is none, 0 where both are.
     """
-    units = normalized(np.array(DIRECTIONS, dtype=np.float64))
-    angle = np.arccos(np.clip(units @ units.T, -1.0, 1.0)) / (0.5 * np.pi)
-    apart = np.minimum(angle, 1.0)
+    apart = np.minimum(angles_rad() / (0.5 * np.pi), 1.0)
     np.fill_diagonal(apart, 0.0)
     return apart
 

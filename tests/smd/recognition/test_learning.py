@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from smd.doodle import Doodle
 from smd.errors import LearningError
+from smd.recognition.alphabet import DIRECTIONS
 from smd.recognition.automaton import compile_automaton, edit_distance
 from smd.recognition.generalization import generalized, pattern_of, ways_of
 from smd.recognition.learning import doodle_runs, learn_pattern, without_rest
 from smd.recognition.pattern import Pattern
 from smd.recognition.progressive_alignment import WeightedToken
-from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
 from smd.synthetic.efforts import ACTIONS
 from smd.synthetic.strokes import STEADY, progress, simulated_person

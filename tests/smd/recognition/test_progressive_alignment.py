@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from smd.recognition.alphabet import DIRECTIONS
 from smd.recognition.progressive_alignment import (
     WeightedToken,
     progressively_aligned,
     token_distance,
 )
-from smd.recognition.tokenizer import DIRECTIONS
 from smd.recognition.tokens import STILL, Token
 
 TOKENS = tuple(map(Token.parse, ("T_Z", "T_Y_Z", "T_Y", "R_Y", "T_Z/R_Y", "STILL")))
