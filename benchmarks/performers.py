@@ -13,10 +13,10 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from benchmarks.greedy import longest_match_segments
 from smd.doodle import Doodle
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition import Recognizer, learn_action
-from smd.recognition.greedy import longest_match_segments
 from smd.recognition.token_spotter import recognize
 from smd.smoothing import smooth
 from smd.synthetic.strokes import GESTURES, STEADY, Person, simulated_person
