@@ -12,8 +12,8 @@ from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.token_costs import TokenCosts, codes_of, unit_costs
-from smd.recognition.tokens import Token
+from smd.recognition.token_costs import TokenCosts, unit_costs
+from smd.recognition.tokens import Token, codes_of
 
 FAR = 1 << 30
 """More edits than any string needs: no way leads there."""

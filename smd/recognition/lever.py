@@ -38,7 +38,7 @@ class LeverArm:
 
     Attributes
     ----------
-    lever_m : (3,) from the tracker to the centre, in the tracker's frame.
+    lever_m : (3,) from the tracker to the centre, along the tracker's axes.
     error_m : (3,) standard error of each component.
     residual_m_s : speed of the centre that turning does not explain, root mean square.
     tracker_wander_m, centre_wander_m : distance of tracker and centre from their mean place,
