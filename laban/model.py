@@ -14,6 +14,7 @@ import numpy as np
 
 from laban.description import described_in_steps
 from laban.effort import AXES, POLES, Effort, LabanError
+from laban.frozen import Frozen
 from laban.motion import FloatArray, RigidMotion
 from laban.own import OwnMeasure
 from laban.reader import Reader
@@ -48,7 +49,7 @@ class Taught:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class EffortModel:
+class EffortModel(Frozen):
     """A trained reader of Effort.
 
     Attributes

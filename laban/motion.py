@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from laban.effort import LabanError
+from laban.frozen import Frozen
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RigidMotion:
+class RigidMotion(Frozen):
     """A rigid body's pose at even times, and three derivatives of it.
 
     The derivatives are given, not made here: whoever knows the sensor knows its noise

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition import pattern as ast
@@ -20,7 +21,7 @@ FAR = 1 << 30
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Automaton:
+class Automaton(Frozen):
     """A pattern compiled for measuring: its states, and how many tokens lie between them.
 
     Each occurrence of a token in the pattern is a position (Glushkov's construction [1]_), and

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.automaton import FAR, compile_automaton
 from smd.recognition.pattern import Pattern
@@ -27,7 +28,7 @@ class Front(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bank:
+class Bank(Frozen):
     """The automata of a library side by side: s states in all, action after action.
 
     Attributes

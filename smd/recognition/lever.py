@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from laban import RigidMotion
+from laban.frozen import Frozen
 from smd.errors import DoodleError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.geometry.rotations import rotate
@@ -33,7 +34,7 @@ _BISQUARE = 4.685  # Tukey's: 95 % efficient where errors are normal
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LeverArm:
+class LeverArm(Frozen):
     """Where a prop's centre is, seen from its tracker.
 
     Attributes

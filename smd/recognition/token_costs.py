@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition.alphabet import BINS, NONE, angles_rad
@@ -18,7 +19,7 @@ _STEPS = 64.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class TokenCosts:
+class TokenCosts(Frozen):
     """What it costs to take one token for another, in edits.
 
     The costs of translation and of rotation add up, to 1 at most (as a token too many, or one

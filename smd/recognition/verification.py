@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.recognition.exemplar import BAND, Exemplar, faced
 from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
@@ -55,7 +56,7 @@ unlikely than what is out."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Verification:
+class Verification(Frozen):
     """What gestures must be like to be a library's actions.
 
     Attributes
