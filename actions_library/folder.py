@@ -5,9 +5,10 @@ from __future__ import annotations
 import shutil
 import tempfile
 from collections.abc import Mapping
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from actions_library.library import Credit, Library
 from actions_library.manifest import MANIFEST, manifest_text, read_manifest
@@ -40,7 +41,15 @@ def load_library(path: Path | str | None = None) -> Library:
 @cache
 def _shipped() -> Library:
     """Read the humanoid; nothing of it changes, so all may share it and what it has read."""
-    return read_manifest(Path(__file__).with_name("humanoid"))
+    read = read_manifest(Path(__file__).with_name("humanoid"))
+    return _ShippedLibrary(**{one.name: getattr(read, one.name) for one in fields(read)})
+
+
+class _ShippedLibrary(Library):
+    """The humanoid: another process has it as well, and takes its own."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return load_library, ()
 
 
 def write_library(

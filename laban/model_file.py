@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ VERSION = 5
 
 
 def load_effort_model(path: Path | str | None = None) -> EffortModel:
-    """Load a model; None loads the shipped one.
+    """Load a model; None is the shipped one, which is read once.
 
     Raises
     ------
@@ -36,16 +37,22 @@ def load_effort_model(path: Path | str | None = None) -> EffortModel:
         If the file is missing or is not such a model; the message names file and key.
     """
     if path is None:
-        from importlib.resources import files
-
-        shipped = files("laban") / "models" / "default.json"
-        return effort_model_from_json(shipped.read_text(encoding="utf-8"), source="default.json")
+        return _shipped()
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise LabanError(f"{path}: expected a model file, but {reason}") from error
     return effort_model_from_json(text, source=str(path))
+
+
+@cache
+def _shipped() -> EffortModel:
+    """Read the shipped model; nothing of it changes, so all may share it."""
+    from importlib.resources import files
+
+    text = (files("laban") / "models" / "default.json").read_text(encoding="utf-8")
+    return effort_model_from_json(text, source="default.json")
 
 
 def save_effort_model(model: EffortModel, path: Path | str) -> None:

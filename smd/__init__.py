@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from smd.doodle import Doodle, Recording
     from smd.errors import SmdError
     from smd.formats import SourceFrame, read_recording, write_recording
+    from smd.parsing import Parser
     from smd.pipeline import animate, parse
     from smd.score import Phrase, Score
     from smd.score_file import read_score, write_score
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 _HOME = {
     "Cast": "smd.cast",
     "Doodle": "smd.doodle",
+    "Parser": "smd.parsing",
     "Performance": "smd.acting.performance",
     "Phrase": "smd.score",
     "Recording": "smd.doodle",
@@ -52,6 +54,7 @@ _HOME = {
 __all__ = [
     "Cast",
     "Doodle",
+    "Parser",
     "Performance",
     "Phrase",
     "Recording",

@@ -59,7 +59,7 @@ class Pace:
 
 
 def paces(library: ActionLibrary) -> tuple[Pace, ...]:
-    """Return the gaits of a library; of those that are preferred where it has any."""
+    """Return the gaits of a library, whose clips are read; the preferred ones where it has any."""
     found = []
     for action in library.actions:
         if not (action.travels and action.cyclic):
@@ -75,7 +75,7 @@ def paces(library: ActionLibrary) -> tuple[Pace, ...]:
 def going_along(
     phrases: Sequence[Phrase],
     motions: Sequence[RigidMotion],
-    library: ActionLibrary,
+    known: Sequence[Pace],
     *,
     figure_height_m: float,
 ) -> tuple[Phrase, ...]:
@@ -87,12 +87,11 @@ def going_along(
         In time order.
     motions
         Of the performer's doodles, in time order.
-    library
-        Has the gaits; their clips are read. Without any, nothing is implied.
+    known
+        The gaits that may be implied (`paces`); without any, nothing is.
     figure_height_m
         Height of the figurine that the prop stands for.
     """
-    known = paces(library)
     if not known:
         return tuple(phrases)
     implied = [

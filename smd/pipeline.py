@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, HEADSETS
-from smd.errors import DoodleError, ScoreError
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 
 if TYPE_CHECKING:
-    from laban import EffortModel, RigidMotion
     from smd.acting.performance import Performance
     from smd.acting.terrain import Terrain
     from smd.cast import ActionLibrary, Cast
-    from smd.doodle import Doodle, Recording
-    from smd.recognition.detection import Detection
-    from smd.recognition.recognizer import Recognizer
-    from smd.recognition.suggestions import Understood
-    from smd.score import Phrase, Score, Suggestion
-
-UNEXPLAINED = ("leave", "follow")
-"""What is made of travel in which nothing is recognised."""
+    from smd.doodle import Recording
+    from smd.score import Score
 
 
 def parse(
@@ -36,6 +27,8 @@ def parse(
     unexplained: str = "leave",
 ) -> Score:
     """Recognise the actions in a recording and read the Effort of each.
+
+    This is short for a `Parser` and its `parse`; whoever parses many recordings makes one.
 
     Parameters
     ----------
@@ -71,155 +64,17 @@ def parse(
     LibraryError
         If a cast has a library for a device that is not in the recording.
     """
-    from laban import load_effort_model
-    from smd.cast import cast_of
-    from smd.following import going_along
-    from smd.recognition.acceptance import Intent
-    from smd.recognition.recognizers import recognizer_of
-    from smd.score import INTENTS, Part, Score
+    from smd.parsing import Parser
 
-    if unexplained not in UNEXPLAINED:
-        raise ScoreError(f"unexplained: expected {' or '.join(UNEXPLAINED)}, got {unexplained!r}")
-    if intent not in (None, *INTENTS):
-        raise ScoreError(f"intent: expected {' or '.join(INTENTS)}, got {intent!r}")
-    empty = Score((), recording.source, figure_height_m=figure_height_m)
-    cast = cast_of(library)
-    cast.check(recording.devices)
-    model = load_effort_model()
-    parts, warnings = [], list(_without_examples(cast))
-    for device in _performing(recording, devices):
-        own = cast.of(device)
-        recognizer = recognizer_of(
-            own,
-            figure_height_m=figure_height_m,
-            tolerance=tolerance,
-            intent=None if intent is None else Intent(intent),
-        )
-        understood: list[Understood] = []
-        for doodle in recording.of(device):
-            try:
-                understood.append(_understood(doodle, recognizer))
-            except DoodleError as error:
-                warnings.append(f"left out: {error}")
-        played = [
-            (span, one.motion.between(span.start_s, span.end_s))
-            for one in understood
-            for span in one.spans
-        ]
-        phrases = tuple(_phrases(played, model))
-        if unexplained == "follow":
-            phrases = going_along(
-                phrases,
-                [one.motion for one in understood],
-                own,
-                figure_height_m=figure_height_m,
-            )
-        suggested = tuple(_suggestions(understood, recognizer, own, figure_height_m))
-        meant = Intent.DRAWN in [one.intent for one in understood]
-        said = str(Intent.DRAWN if meant else Intent.FREE)
-        parts.append(Part(device, phrases, intent=said, suggestions=suggested))
-        warnings.extend(_lost_tracking(recording, device))
-    if not devices:
-        warnings.extend(_never_tracked(recording))
-    return replace(empty, performers=tuple(parts), warnings=tuple(warnings))
-
-
-def _performing(recording: Recording, devices: Collection[str] | None) -> tuple[str, ...]:
-    """Return the devices that perform, in the recording's order."""
-    known = recording.devices
-    for device in devices or ():
-        if device not in known:
-            raise ScoreError(
-                f"{recording.source or 'recording'}: expected a device of {', '.join(known)}, "
-                f"got {device!r}"
-            )
-    if devices:
-        return tuple(device for device in known if device in devices)
-    played = tuple(device for device in known if device.lower() not in HEADSETS)
-    return played or known
-
-
-def _understood(doodle: Doodle, recognizer: Recognizer) -> Understood:
-    """Return one doodle's motion, tokens and actions."""
-    from smd.recognition.suggestions import Understood
-    from smd.smoothing import smooth
-
-    motion = smooth(doodle)
-    runs = recognizer.runs_of(doodle, motion)
-    intent = recognizer.intent_of(doodle)
-    return Understood(motion, runs, recognizer.spot_runs(motion, runs, intent), intent)
-
-
-def _suggestions(
-    understood: Sequence[Understood],
-    recognizer: Recognizer,
-    library: ActionLibrary,
-    figure_height_m: float,
-) -> Iterator[Suggestion]:
-    """Yield what a performer did that nothing explains; times to the millisecond, as phrases'."""
-    from smd.recognition.suggestions import suggestions
-    from smd.score import Alternative, Suggestion
-
-    for one in suggestions(
-        recognizer, library.actions, understood, figure_height_m=figure_height_m
-    ):
-        yield Suggestion(
-            round(one.start_s, 3),
-            round(one.end_s, 3),
-            tuple(Alternative(c.action, c.cost, c.most, c.reason) for c in one.likeliest),
-        )
-
-
-def _without_examples(cast: Cast) -> Iterator[str]:
-    """Yield a line where a library can only be recognised the old way, by tokens alone."""
-    libraries = (cast.shared, *cast.own.values())
-    if any(not any(action.exemplar for action in library.actions) for library in libraries):
-        yield (
-            "library: no action has examples, so gestures are told by their tokens alone; "
-            "smd teach and smd learn add some"
-        )
-
-
-def _phrases(
-    played: Sequence[tuple[Detection, RigidMotion]], model: EffortModel
-) -> Iterator[Phrase]:
-    """Yield what one performer says; times to the millisecond, as a Score's file keeps them.
-
-    Each phrase's Effort is read of the phrase alone, as it is while somebody plays: what else they
-    play is what they mean as well as how they move anyway.
-    """
-    from laban import read_effort
-    from smd.score import Alternative, Phrase
-
-    for span, motion in played:
-        yield Phrase(
-            action=span.action,
-            start_s=round(span.start_s, 3),
-            end_s=round(span.end_s, 3),
-            effort=read_effort(motion, model),
-            confidence=span.confidence,
-            alternatives=tuple(Alternative(*other) for other in span.alternatives),
-        )
-
-
-def _lost_tracking(recording: Recording, device: str) -> Iterator[str]:
-    """Yield a line on where a device was lost, if it was."""
-    lost = [dropout for dropout in recording.dropouts if dropout.device == device]
-    if lost:
-        longest = max(lost, key=lambda dropout: dropout.end_s - dropout.start_s)
-        times = "once" if len(lost) == 1 else f"{len(lost)} times"
-        splits = sum(not dropout.bridged for dropout in lost)
-        yield (
-            f"device {device!r}: tracking was lost {times} ({splits} split the doodle); longest "
-            f"{longest.end_s - longest.start_s:.2f} s at {longest.start_s:.2f} s"
-        )
-
-
-def _never_tracked(recording: Recording) -> Iterator[str]:
-    """Yield a line on each device of which nothing is left."""
-    for device in dict.fromkeys(dropout.device for dropout in recording.dropouts):
-        if device not in recording.devices:
-            yield f"device {device!r}: left out: it was never tracked for 0.1 s"
+    parser = Parser(
+        library,
+        figure_height_m=figure_height_m,
+        devices=devices,
+        tolerance=tolerance,
+        intent=intent,
+        unexplained=unexplained,
+    )
+    return parser.parse(recording)
 
 
 def animate(

@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from laban import RigidMotion
+from laban.frozen import Frozen
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.recognition.acceptance import Intent, accepted_cost
@@ -38,7 +39,7 @@ class HasActions(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CompiledActions:
+class CompiledActions(Frozen):
     """The a actions of a library that have a pattern, compiled.
 
     Attributes

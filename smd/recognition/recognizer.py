@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -55,15 +56,29 @@ class Recognizer:
         tolerance: float = 1.0,
         intent: Intent | None = None,
     ) -> None:
+        every = tuple(actions if isinstance(actions, Iterable) else actions.actions)
         self.intent = intent
+        self._made = partial(
+            Recognizer,
+            every,
+            figure_height_m=figure_height_m,
+            costs=costs,
+            token_costs=token_costs,
+            tolerance=tolerance,
+            intent=intent,
+        )
         self._actions = compile_actions(
-            actions,
+            every,
             figure_height_m=figure_height_m,
             costs=costs,
             token_costs=token_costs,
             tolerance=tolerance,
         )
         self._tokens = TokenSpotter(self._actions.bank, costs)  # where there are no examples
+
+    def __reduce__(self) -> tuple[Callable[[], Recognizer], tuple[()]]:
+        """Pickle as what it was made of: what is compiled of it is larger."""
+        return self._made, ()
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.lib.stride_tricks import as_strided
 from numpy.typing import NDArray
 
+from laban.frozen import Frozen
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.alignment import pair_distances, widest_shift
 
@@ -33,7 +34,7 @@ _ROUNDING = float(np.finfo(np.float32).eps)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Templates:
+class Templates(Frozen):
     """Templates for dynamic time warping: courses of the examples of a actions, laid out.
 
     Attributes

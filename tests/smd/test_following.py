@@ -37,7 +37,8 @@ def travel(heights_s: float, *, seconds: float = 3.0, heading=0.7, aside_rad=0.0
 
 
 def followed(doodle: Doodle, library, phrases=()):
-    return going_along(phrases, [smooth(doodle)], library, figure_height_m=HEIGHT_M)
+    known = paces(library)
+    return going_along(phrases, [smooth(doodle)], known, figure_height_m=HEIGHT_M)
 
 
 @pytest.mark.parametrize(
