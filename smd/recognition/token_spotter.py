@@ -52,7 +52,7 @@ def recognize(
     costs
         What is weighed against what.
     segments
-        How the runs are cut.
+        How the runs are cut: `least_cost_segments`, or another way (`benchmarks.greedy`).
 
     Returns
     -------
