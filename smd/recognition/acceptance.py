@@ -1,4 +1,7 @@
-"""Acceptance: what an action may cost, from what movement costs that means nothing."""
+"""Acceptance: what an action may cost, from what movement costs that means nothing.
+
+The constants by which costs are judged stand here together: one is traded off against the others.
+"""
 
 from __future__ import annotations
 
@@ -26,6 +29,17 @@ examples are the performer's own."""
 OTHERS_MARGIN = {Intent.DRAWN: -0.4, Intent.FREE: 0.35}
 """The same where all examples are other people's: their way is not quite the performer's, and a
 stroke that is meant is hardly ever nothing."""
+
+UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
+"""What an action without examples costs: as much as a fair fit to examples, and more with the
+share of tokens that are wrong. All of them wrong is the most that it may cost."""
+
+PLAINLY = 1.3
+"""Another action is plainly meant where it passes, and the one asked for costs more than so many
+times as much. ``python -m benchmarks.own_examples`` prints how many takes that refuses."""
+
+WORTH_NAMING = 2.0
+"""An action that costs more than so many times what it may is no alternative to another one."""
 
 
 def accepted_cost(

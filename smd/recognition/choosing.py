@@ -9,9 +9,9 @@ import numpy as np
 
 from laban import RigidMotion
 from smd.geometry.arrays import FloatArray
-from smd.recognition.acceptance import Intent
+from smd.recognition.acceptance import UNVERIFIED, UNVERIFIED_WRONG, Intent
 from smd.recognition.candidates import Stretch
-from smd.recognition.compiled_actions import UNVERIFIED, UNVERIFIED_WRONG, CompiledActions
+from smd.recognition.compiled_actions import CompiledActions
 from smd.recognition.costs import RunCosts, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.proposals import Proposal, explaining, without_stir

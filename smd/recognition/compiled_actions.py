@@ -13,7 +13,7 @@ from laban import RigidMotion
 from laban.frozen import Frozen
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.recognition.acceptance import Intent, accepted_cost
+from smd.recognition.acceptance import UNVERIFIED, UNVERIFIED_WRONG, Intent, accepted_cost
 from smd.recognition.action import Action
 from smd.recognition.background import weighed
 from smd.recognition.bank import Bank, compile_library, least_costs_of_parts
@@ -24,10 +24,6 @@ from smd.recognition.token_costs import TokenCosts
 from smd.recognition.tokens import TokenRun
 from smd.recognition.traits import Traits, traits_of_parts
 from smd.recognition.verification import Verification
-
-UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
-"""What an action without examples costs: as much as a fair fit to examples, and more with the
-share of tokens that are wrong."""
 
 
 class HasActions(Protocol):

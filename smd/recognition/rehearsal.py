@@ -10,6 +10,7 @@ import numpy as np
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
 from smd.errors import LearningError
 from smd.recognition import pattern as ast
+from smd.recognition.acceptance import PLAINLY
 from smd.recognition.action import Action
 from smd.recognition.background import weighed
 from smd.recognition.bank import compile_library, distances
@@ -20,10 +21,6 @@ from smd.recognition.pattern import Pattern
 from smd.recognition.recognizer import Recognizer
 from smd.recognition.traits import Traits, traits_of
 from smd.smoothing import smooth
-
-PLAINLY = 1.3
-"""Another action is plainly meant where it passes, and the one asked for costs more than so many
-times as much. ``python -m benchmarks.own_examples`` prints how many takes that refuses."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ import numpy as np
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import FloatArray
-from smd.recognition.acceptance import Intent
+from smd.recognition.acceptance import WORTH_NAMING, Intent
 from smd.recognition.action import Action
 from smd.recognition.detection import Detection
 from smd.recognition.matching import Match
@@ -18,7 +18,6 @@ from smd.recognition.reasons import OUTDONE, reason_of
 from smd.recognition.recognizer import Recognizer
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of_parts
-from smd.recognition.weighing import WORTH_NAMING
 
 REST_S = 0.25
 """Stillness from which movement before and after it is seen as two."""

@@ -9,15 +9,12 @@ import numpy as np
 
 from laban import RigidMotion
 from smd.geometry.arrays import FloatArray
-from smd.recognition.acceptance import Intent
-from smd.recognition.compiled_actions import UNVERIFIED, UNVERIFIED_WRONG, CompiledActions
+from smd.recognition.acceptance import UNVERIFIED, UNVERIFIED_WRONG, WORTH_NAMING, Intent
+from smd.recognition.compiled_actions import CompiledActions
 from smd.recognition.costs import run_costs
 from smd.recognition.matching import Match
 from smd.recognition.tokens import TokenRun
 from smd.recognition.verification import TERMS, WRONG
-
-WORTH_NAMING = 2.0
-"""An action that costs more than so many times what it may is no alternative to another one."""
 
 Terms: TypeAlias = dict[tuple[float, float], FloatArray]
 """What stretches are weighed by, tokens apart, ``(a, 9)`` for the actions with examples, by start

@@ -8,10 +8,11 @@ import pytest
 from smd.doodle import Doodle
 from smd.errors import LearningError
 from smd.recognition import Recognizer, learn_action
+from smd.recognition.acceptance import PLAINLY
 from smd.recognition.action import Action
 from smd.recognition.matching import Match
 from smd.recognition.pattern import Pattern
-from smd.recognition.rehearsal import PLAINLY, Likeness, add_examples, gains, likeness
+from smd.recognition.rehearsal import Likeness, add_examples, gains, likeness
 from smd.synthetic.strokes import simulated_person
 from smd.synthetic.takes import Take
 
