@@ -164,7 +164,7 @@ def progress(u: FloatArray, cruise: float = 0.0) -> FloatArray:
     return (curved + straight) / (1.0 + peak * cruise)
 
 
-def _chain(overlap: float, *strokes: Stroke) -> tuple[Stroke, ...]:
+def chained(overlap: float, *strokes: Stroke) -> tuple[Stroke, ...]:
     """Return strokes one after another, each beginning before the end of the one before it.
 
     They overlap by a share of the shorter one; the start that a stroke carries is added.
@@ -179,13 +179,13 @@ def _chain(overlap: float, *strokes: Stroke) -> tuple[Stroke, ...]:
     return tuple(placed)
 
 
-def _glide(move_m: Vector, speed_m_s: float, *, at_s: float = 0.0) -> Stroke:
+def gliding(move_m: Vector, speed_m_s: float, *, at_s: float = 0.0) -> Stroke:
     """Return a stroke that cruises for six tenths of its time at about ``speed_m_s``."""
     distance_m = float(np.linalg.norm(move_m))
     return Stroke(at_s, 1.25 * distance_m / speed_m_s, move_m, cruise=0.6)
 
 
-def _bobbing(glide: Stroke, rise_m: float, period_s: float) -> tuple[Stroke, ...]:
+def bobbing(glide: Stroke, rise_m: float, period_s: float) -> tuple[Stroke, ...]:
     """Return a glide with ups and downs on the way: a whole number of hops."""
     hops = max(round(glide.duration_s / period_s), 1)
     half_s = glide.duration_s / (2 * hops)
@@ -196,23 +196,23 @@ def _bobbing(glide: Stroke, rise_m: float, period_s: float) -> tuple[Stroke, ...
 
 def _walk(size: float, person: Person) -> tuple[Stroke, ...]:
     """Glide straight ahead."""
-    glide = _glide((0.0, 0.0, 0.35 * size), 0.18 * size**0.5)
-    return _bobbing(glide, person.bob_m, 0.45) if person.bob_m else (glide,)
+    glide = gliding((0.0, 0.0, 0.35 * size), 0.18 * size**0.5)
+    return bobbing(glide, person.bob_m, 0.45) if person.bob_m else (glide,)
 
 
 def _run(size: float, person: Person) -> tuple[Stroke, ...]:
     """Hop ahead in low, quick bounds."""
-    return _bobbing(_glide((0.0, 0.0, 0.55 * size), 0.36 * size**0.5), 0.036, 0.28)
+    return bobbing(gliding((0.0, 0.0, 0.55 * size), 0.36 * size**0.5), 0.036, 0.28)
 
 
 def _side_step(left: float) -> Callable[[float, Person], tuple[Stroke, ...]]:
     """Glide straight to a side."""
-    return lambda size, person: (_glide((left * 0.25 * size, 0.0, 0.0), 0.18 * size**0.5),)
+    return lambda size, person: (gliding((left * 0.25 * size, 0.0, 0.0), 0.18 * size**0.5),)
 
 
 def _jump(size: float, person: Person) -> tuple[Stroke, ...]:
     """Go straight up, over, and straight down."""
-    return _chain(
+    return chained(
         person.overlap,
         Stroke(0.0, 0.32, (0.0, 0.08 * size, 0.0)),
         Stroke(0.0, 0.36, (0.0, 0.0, 0.13 * size)),
@@ -227,7 +227,7 @@ def _turn(left: float) -> Callable[[float, Person], tuple[Stroke, ...]]:
 
 def _punch(size: float, person: Person) -> tuple[Stroke, ...]:
     """Thrust ahead and straight back."""
-    return _chain(
+    return chained(
         0.3 * person.overlap,
         Stroke(0.0, 0.32, (0.0, 0.0, 0.15 * size)),
         Stroke(0.0, 0.42, (0.0, 0.0, -0.15 * size)),
@@ -236,7 +236,7 @@ def _punch(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _throw(size: float, person: Person) -> tuple[Stroke, ...]:
     """Draw back, then fling ahead in an arc over the top."""
-    return _chain(
+    return chained(
         person.overlap,
         Stroke(0.0, 0.45, (0.0, 0.0, -0.10 * size)),
         Stroke(0.0, 0.30, (0.0, 0.08 * size, 0.10 * size)),
@@ -246,10 +246,10 @@ def _throw(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _fly(size: float, person: Person) -> tuple[Stroke, ...]:
     """Glide ahead while rocking from wing to wing."""
-    glide = _glide((0.0, 0.0, 0.6 * size), 0.25 * size**0.5)
+    glide = gliding((0.0, 0.0, 0.6 * size), 0.25 * size**0.5)
     rocks = max(round(glide.duration_s / 0.55), 2)
     each_s = glide.duration_s / (rocks + 1)
-    return (glide, *_rocking(2, 28.0, rocks, each_s))
+    return (glide, *rocking(2, 28.0, rocks, each_s))
 
 
 def _bow(size: float, person: Person) -> tuple[Stroke, ...]:
@@ -263,19 +263,19 @@ def _bow(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _walk_backward(size: float, person: Person) -> tuple[Stroke, ...]:
     """Glide straight back."""
-    return (_glide((0.0, 0.0, -0.28 * size), 0.16 * size**0.5),)
+    return (gliding((0.0, 0.0, -0.28 * size), 0.16 * size**0.5),)
 
 
-def _between(
+def leaning(
     overlap: float, tilt_deg: float, *middle: Stroke, tilting_s: float = 0.4
 ) -> tuple[Stroke, ...]:
     """Return a tilt forward about the left axis, strokes, and the tilt back."""
     angle = np.radians(tilt_deg)
     tip = Stroke(0.0, tilting_s, turn_rad=(angle, 0.0, 0.0))
-    return _chain(overlap, tip, *middle, replace(tip, turn_rad=(-angle, 0.0, 0.0)))
+    return chained(overlap, tip, *middle, replace(tip, turn_rad=(-angle, 0.0, 0.0)))
 
 
-def _rocking(axis: int, tilt_deg: float, count: int, each_s: float) -> tuple[Stroke, ...]:
+def rocking(axis: int, tilt_deg: float, count: int, each_s: float) -> tuple[Stroke, ...]:
     """Return turns to and fro about an axis of the prop, which end where they began."""
     tilt = np.radians(tilt_deg)
     turns = [tilt, *(2.0 * tilt * (-1.0) ** i for i in range(1, count)), tilt * (-1.0) ** count]
@@ -285,34 +285,34 @@ def _rocking(axis: int, tilt_deg: float, count: int, each_s: float) -> tuple[Str
     )
 
 
-def _later(strokes: tuple[Stroke, ...], by_s: float) -> tuple[Stroke, ...]:
+def later(strokes: tuple[Stroke, ...], by_s: float) -> tuple[Stroke, ...]:
     """Return strokes that begin later."""
     return tuple(replace(stroke, start_s=stroke.start_s + by_s) for stroke in strokes)
 
 
 def _sneak(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lean it forward, glide ahead, straighten it."""
-    return _between(person.overlap, 32.0, _glide((0.0, 0.0, 0.26 * size), 0.15 * size**0.5))
+    return leaning(person.overlap, 32.0, gliding((0.0, 0.0, 0.26 * size), 0.15 * size**0.5))
 
 
 def _crawl(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lay it on its face, glide ahead head first, set it up again."""
-    glide = _glide((0.0, 0.0, 0.24 * size), 0.15 * size**0.5)
-    return _between(person.overlap, 85.0, glide, tilting_s=0.55)
+    glide = gliding((0.0, 0.0, 0.24 * size), 0.15 * size**0.5)
+    return leaning(person.overlap, 85.0, glide, tilting_s=0.55)
 
 
 def _swim(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lay it on its face, glide ahead rolling from side to side, set it up again."""
-    glide = _glide((0.0, 0.0, 0.36 * size), 0.20 * size**0.5)
-    first, middle, last = _between(person.overlap, 85.0, glide, tilting_s=0.55)
-    rocks = _rocking(1, 26.0, 3, middle.duration_s / 4)
-    return (first, middle, *_later(rocks, middle.start_s), last)
+    glide = gliding((0.0, 0.0, 0.36 * size), 0.20 * size**0.5)
+    first, middle, last = leaning(person.overlap, 85.0, glide, tilting_s=0.55)
+    rocks = rocking(1, 26.0, 3, middle.duration_s / 4)
+    return (first, middle, *later(rocks, middle.start_s), last)
 
 
 def _climb(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lift it slowly while rocking it from side to side."""
-    rise = _glide((0.0, 0.20 * size, 0.0), 0.14 * size**0.5)
-    return (rise, *_rocking(2, 22.0, 3, rise.duration_s / 4))
+    rise = gliding((0.0, 0.20 * size, 0.0), 0.14 * size**0.5)
+    return (rise, *rocking(2, 22.0, 3, rise.duration_s / 4))
 
 
 def _spin(size: float, person: Person) -> tuple[Stroke, ...]:
@@ -341,10 +341,10 @@ def _leap(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _hop(size: float, person: Person) -> tuple[Stroke, ...]:
     """Hop on the spot, three times."""
-    return _to_and_fro((0.0, 0.045 * size, 0.0), 6, 0.17)
+    return to_and_fro((0.0, 0.045 * size, 0.0), 6, 0.17)
 
 
-def _to_and_fro(move_m: Vector, count: int, each_s: float) -> tuple[Stroke, ...]:
+def to_and_fro(move_m: Vector, count: int, each_s: float) -> tuple[Stroke, ...]:
     """Return strokes there and back, one after the other."""
     back = (-move_m[0], -move_m[1], -move_m[2])
     return tuple(Stroke(i * each_s, each_s, back if i % 2 else move_m) for i in range(count))
@@ -354,7 +354,7 @@ def _roll(size: float, person: Person) -> tuple[Stroke, ...]:
     """Glide it ahead, tumble it over its front once round, glide on."""
     glide = Stroke(0.0, 0.45, (0.0, 0.0, 0.12 * size))
     tumble = Stroke(0.0, 1.1, (0.0, 0.0, 0.16 * size), (2.0 * np.pi, 0.0, 0.0))
-    return _chain(0.5 * person.overlap, glide, tumble, glide)
+    return chained(0.5 * person.overlap, glide, tumble, glide)
 
 
 def _fall(size: float, person: Person) -> tuple[Stroke, ...]:
@@ -371,7 +371,7 @@ def _fall(size: float, person: Person) -> tuple[Stroke, ...]:
 def _kick(size: float, person: Person) -> tuple[Stroke, ...]:
     """Swing its feet ahead and back."""
     angle = np.radians(30.0)
-    return _chain(
+    return chained(
         0.3 * person.overlap,
         Stroke(0.0, 0.32, (0.0, 0.0, 0.16 * size), (-angle, 0.0, 0.0)),
         Stroke(0.0, 0.42, (0.0, 0.0, -0.16 * size), (angle, 0.0, 0.0)),
@@ -382,12 +382,12 @@ def _push(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lean it forward, shove ahead, come back, straighten it."""
     shove = Stroke(0.0, 0.42, (0.0, 0.0, 0.12 * size))
     back = replace(shove, move_m=(0.0, 0.0, -0.12 * size))
-    return _between(0.5 * person.overlap, 32.0, shove, back, tilting_s=0.34)
+    return leaning(0.5 * person.overlap, 32.0, shove, back, tilting_s=0.34)
 
 
 def _slash(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lift it to its right, cut down across to its left, bring it back."""
-    return _chain(
+    return chained(
         0.5 * person.overlap,
         Stroke(0.0, 0.36, (-0.07 * size, 0.07 * size, 0.0)),
         Stroke(0.0, 0.26, (0.14 * size, -0.14 * size, 0.0)),
@@ -399,7 +399,7 @@ def _pick_up(size: float, person: Person) -> tuple[Stroke, ...]:
     """Tip it forward, dip it, lift it, set it straight."""
     dip = Stroke(0.0, 0.32, (0.0, -0.06 * size, 0.0))
     lift = Stroke(0.0, 0.36, (0.0, 0.06 * size, 0.0))
-    return _between(0.5 * person.overlap, 50.0, dip, lift)
+    return leaning(0.5 * person.overlap, 50.0, dip, lift)
 
 
 def _nod(size: float, person: Person) -> tuple[Stroke, ...]:
@@ -412,26 +412,26 @@ def _nod(size: float, person: Person) -> tuple[Stroke, ...]:
 
 def _wave(size: float, person: Person) -> tuple[Stroke, ...]:
     """Rock it from side to side on the spot."""
-    return _rocking(2, 26.0 * size, 4 + 2 * person.swings, 0.3)
+    return rocking(2, 26.0 * size, 4 + 2 * person.swings, 0.3)
 
 
 def _clap(size: float, person: Person) -> tuple[Stroke, ...]:
     """Shake it to the left and the right, twice and more."""
-    return _to_and_fro((0.055 * size, 0.0, 0.0), 6 + 2 * person.swings, 0.2)
+    return to_and_fro((0.055 * size, 0.0, 0.0), 6 + 2 * person.swings, 0.2)
 
 
 def _cheer(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lift it, twist it to and fro, lower it."""
-    twists = _rocking(1, 28.0, 3, 0.22)
+    twists = rocking(1, 28.0, 3, 0.22)
     rise, fall = Stroke(0.0, 0.34, (0.0, 0.09 * size, 0.0)), (0.0, -0.09 * size, 0.0)
     begun_s = rise.duration_s * (1.0 - 0.5 * person.overlap)
     ended_s = begun_s + twists[-1].end_s - 0.5 * person.overlap * twists[-1].duration_s
-    return (rise, *_later(twists, begun_s), Stroke(ended_s, 0.34, fall))
+    return (rise, *later(twists, begun_s), Stroke(ended_s, 0.34, fall))
 
 
 def _dance(size: float, person: Person) -> tuple[Stroke, ...]:
     """Twist it to and fro on the spot."""
-    return _rocking(1, 32.0 * size, 4 + 2 * person.swings, 0.32)
+    return rocking(1, 32.0 * size, 4 + 2 * person.swings, 0.32)
 
 
 def _crouch(size: float, person: Person) -> tuple[Stroke, ...]:
@@ -445,7 +445,7 @@ def _crouch(size: float, person: Person) -> tuple[Stroke, ...]:
 def _sit_down(size: float, person: Person) -> tuple[Stroke, ...]:
     """Lower it, rock it back and upright."""
     angle = np.radians(30.0)
-    return _chain(
+    return chained(
         0.5 * person.overlap,
         Stroke(0.0, 0.42, (0.0, -0.07 * size, 0.0)),
         Stroke(0.0, 0.34, turn_rad=(-angle, 0.0, 0.0)),
@@ -456,7 +456,7 @@ def _sit_down(size: float, person: Person) -> tuple[Stroke, ...]:
 def _stand_up(size: float, person: Person) -> tuple[Stroke, ...]:
     """Rock it forward and upright, lift it."""
     angle = np.radians(30.0)
-    return _chain(
+    return chained(
         0.5 * person.overlap,
         Stroke(0.0, 0.36, turn_rad=(angle, 0.0, 0.0)),
         Stroke(0.0, 0.36, turn_rad=(-angle, 0.0, 0.0)),
