@@ -19,7 +19,8 @@ from smd.recognition.recognizer import Span, TokenSpotter
 from smd.recognition.streaming import HORIZON_S, RecognitionStream, Spotter
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 PEOPLE, SEED = 20, 2028
