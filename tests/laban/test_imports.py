@@ -27,7 +27,7 @@ def test_laban_needs_numpy_and_to_fit_scikit_learn(path):
             else [alias.name for alias in node.names]
         )
     }
-    fitting = {"sklearn"} if path.stem == "linear" else set()
+    fitting = {"sklearn", "threadpoolctl"} if path.stem == "linear" else set()
     assert names <= {"laban", "numpy"} | fitting | set(sys.stdlib_module_names)
 
 

@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from sklearn.linear_model import LogisticRegression
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from laban import LabanError
 from laban.description import DESCRIPTION_NAMES, FAMILIES
@@ -111,6 +113,30 @@ def test_joint_states_are_trained_where_both_axes_have_poles():
     chances = training.model.alone.chances(described[3])
     assert chances.sum() == pytest.approx(1.0)
     assert chances.argmax() == 3  # sudden and strong
+
+
+def blas_threads() -> set[int]:
+    libraries = [each for each in threadpool_info() if each["user_api"] == "blas"]
+    if not libraries:
+        pytest.skip("no BLAS whose threads can be counted, as Apple's")
+    return {each["num_threads"] for each in libraries}
+
+
+def test_training_reckons_with_one_thread_and_leaves_threads_as_they_were(monkeypatch):
+    described, meant, performers = crowd(people=3)
+    during, fit = set(), LogisticRegression.fit
+
+    def watched(self, *arguments, **options):
+        during.update(blas_threads())
+        return fit(self, *arguments, **options)
+
+    monkeypatch.setattr(LogisticRegression, "fit", watched)
+    with threadpool_limits(limits=2, user_api="blas"):
+        before = blas_threads()
+        train(described, {"time": meant}, performers, trained_on="test")
+        after = blas_threads()
+    assert before == after == {2}
+    assert during == {1}
 
 
 def test_training_twice_gives_the_same_model():
