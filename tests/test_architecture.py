@@ -81,7 +81,12 @@ def test_importing_smd_and_its_command_line_loads_nothing_heavy():
     heavy = {"numpy", "scipy", "pxr", "vtk", "pyvista", "matplotlib", "sklearn", "openvr"}
     code = "import sys, smd, smd.cli.app; print(*{m.split('.')[0] for m in sys.modules})"
     loaded = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=ROOT,
+        timeout=60,
     )
     assert not heavy & set(loaded.stdout.split())
 

@@ -35,6 +35,8 @@ def test_reading_does_not_load_what_fits():
     code = (
         "import sys; from laban import load_effort_model; load_effort_model(); print(*sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60
+    )
     assert "laban.linear" in done.stdout
     assert "sklearn" not in done.stdout
