@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from actions_library.library import IDLE, Library
+from actions_library.library import Library
 from actions_library.storage import read_clip_file
+from smd.cast import IDLE
 from smd.character.quality import flaws
 from smd.errors import LibraryError
 from smd.recognition.collisions import collisions

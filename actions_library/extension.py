@@ -10,9 +10,10 @@ from pathlib import Path
 
 from actions_library.exemplars import write_exemplar
 from actions_library.folder import EXEMPLARS_FOLDER, load_library, write_library
-from actions_library.library import IDLE, Credit, Library
+from actions_library.library import Credit, Library
 from actions_library.manifest import MANIFEST, manifest_text
 from actions_library.storage import CLIPS_FOLDER, write_clip_file
+from smd.cast import IDLE
 from smd.character.clip import Clip
 from smd.errors import LibraryError
 from smd.files import replacing

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from smd.character.character import Character
     from smd.character.clip import Clip
 
-IDLE = "idle"
-"""The clip that is played where nothing was recognised."""
-
 
 @dataclass(frozen=True, slots=True)
 class Credit:

@@ -8,26 +8,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from actions_library.cast import cast_of
 from actions_library.library import Library
+from smd.acting.legs import feet_of, legs_of
+from smd.acting.move import Move
+from smd.acting.moving import Idling, own_poses, rows_of, stepped
+from smd.acting.performance import Actor, Performance
+from smd.acting.standing import standing
+from smd.cast import cast_of
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.poses import Poses
 from smd.character.skeleton import Skeleton
 from smd.doodle import Doodle, Recording
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
+from smd.score import Score
 from smd.smoothing import smooth
-from smd.transfer.acting import acted_contacts, own_poses, rows_of
-from smd.transfer.legs import feet_of, legs_of
-from smd.transfer.move import Move
 from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
 from smd.transfer.perform import entrances, kept_apart
-from smd.transfer.performance import Actor, Performance
-from smd.transfer.poses import Poses
 from smd.transfer.repertoire import Piece
 from smd.transfer.stage import stage_for
-from smd.transfer.standing import standing
 
 LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
 """NVIDIA kimodo's: toes below the first height are taken to touch, above the speed to skate."""
@@ -67,17 +68,15 @@ class Played(NamedTuple):
     ----------
     actor : with poses at ``time_s (n,)``.
     moves : one after the other.
-    idle : what is seen between them.
-    clock_s : when idling began.
+    idling : what is seen between them.
     path : of the prop, on the stage.
     feet : joints; ``stands (n, feet)`` when each should stand.
     """
 
     actor: Actor
     time_s: FloatArray
-    moves: tuple[Move, ...]
-    idle: Piece
-    clock_s: float
+    moves: tuple[Move[Piece], ...]
+    idling: Idling
     path: GroundPath
     feet: tuple[int, ...]
     stands: BoolArray
@@ -85,21 +84,22 @@ class Played(NamedTuple):
     @property
     def poses(self) -> Poses:
         """Return what is seen."""
-        return Poses(self.actor.rotation_xyzw, self.actor.translation_m)
+        return self.actor.poses
 
 
-def played(performance: Performance, recording: Recording, library: Library) -> Iterator[Played]:
+def played(
+    performance: Performance, recording: Recording, score: Score, library: Library
+) -> Iterator[Played]:
     """Yield the actors of a performance, in full Effort, with their moves."""
-    score = performance.score
     stage = stage_for(recording, library.character.height_m, score.figure_height_m)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     cast = cast_of(library)
     alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop")
     for actor, one in zip(performance.actors, kept_apart(alone, cast), strict=True):
-        idle, feet = one.pieces.idle, tuple(leg.foot for leg in one.pieces.legs)
-        stands, _ = acted_contacts(one.moves, time_s, idle, feet, clock_s=one.clock_s)
-        path = ground_path(recording.of(actor.device), stage)
-        yield Played(actor, time_s, one.moves, idle, one.clock_s, path, feet, stands)
+        feet = tuple(leg.foot for leg in one.pieces.legs)
+        stands, _ = stepped(one.moves, time_s, one.idling)
+        path = ground_path(recording.of(actor.name), stage)
+        yield Played(actor, time_s, one.moves, one.idling, path, feet, stands)
 
 
 def measured_feet(
@@ -170,7 +170,7 @@ def _speeds(place_m: FloatArray, low: BoolArray, rate_hz: float) -> FloatArray:
 def path_errors_m(seen: Played) -> FloatArray:
     """Return distances of the ground root from the smoothed path in travelling phrases."""
     errors = [np.zeros(0)]
-    for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
+    for phrase, move in zip(seen.actor.phrases, first_moves(seen), strict=True):
         if move is None or not move.piece.travels:
             continue
         start_s = move.start_s  # of a gait perhaps earlier than the phrase's
@@ -178,7 +178,7 @@ def path_errors_m(seen: Played) -> FloatArray:
         # The character goes on from where it stood: the path is put there.
         wanted = seen.path.at(np.arange(start_s, phrase.end_s, 1e-3))
         wanted += move.root_m[0] - seen.path.at(start_s)
-        root = seen.actor.translation_m[rows][:, 0, [0, 2]]
+        root = seen.actor.poses.translation_m[rows][:, 0, [0, 2]]
         gaps = np.linalg.norm(root[:, None] - wanted[None], axis=-1)
         errors.append(gaps.min(axis=1, initial=np.inf))
     return np.concatenate(errors)
@@ -188,7 +188,7 @@ def first_moves(seen: Played) -> list[Move | None]:
     """Return the move with which each phrase begins."""
     acting = [move for move in seen.moves if not move.idles]
     found: list[Move | None] = []
-    for phrase in seen.actor.part.phrases:
+    for phrase in seen.actor.phrases:
         of = [m for m in acting if m.piece.clip.name == phrase.action and m.end_s > phrase.start_s]
         found.append(of[0] if of and of[0].start_s < phrase.end_s else None)
     return found
@@ -200,7 +200,7 @@ def boundary_gaps_s(seen: Played) -> tuple[FloatArray, FloatArray]:
     A clip that is done earlier is not late: 0.
     """
     begins, ends = [], []
-    for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
+    for phrase, move in zip(seen.actor.phrases, first_moves(seen), strict=True):
         if move is None:
             continue
         begins.append(abs(move.start_s - phrase.start_s))
@@ -221,7 +221,7 @@ def lateness_s(seen: Played, doodles: Sequence[Doodle]) -> FloatArray:
     """
     late = []
     skeleton = seen.actor.character.skeleton
-    for phrase, move in zip(seen.actor.part.phrases, first_moves(seen), strict=True):
+    for phrase, move in zip(seen.actor.phrases, first_moves(seen), strict=True):
         if move is None or move.piece.clip.cyclic or move.start_s != phrase.start_s:
             continue
         rows = (seen.time_s >= phrase.start_s) & (seen.time_s <= move.end_s)
@@ -266,13 +266,15 @@ def pops(seen: Played) -> tuple[int, int, float]:
     count, of, worst_deg
         Turns in all, and the largest excess.
     """
-    own = np.full(len(seen.time_s) - 1, 0.0)[:, None] * np.ones(seen.actor.rotation_xyzw.shape[1])
+    own = np.full(len(seen.time_s) - 1, 0.0)[:, None] * np.ones(
+        seen.actor.poses.rotation_xyzw.shape[1]
+    )
     for move, rows in zip(seen.moves, rows_of(seen.moves, seen.time_s), strict=True):
         if rows.stop - rows.start < 2:
             continue
-        poses = own_poses(move, seen.time_s[rows], seen.idle, seen.clock_s)
+        poses = own_poses(move, seen.time_s[rows], seen.idling)
         own[rows.start : rows.stop - 1] = turns_deg(poses.rotation_xyzw)
-    excess = (turns_deg(seen.actor.rotation_xyzw) - own)[:, 1:]
+    excess = (turns_deg(seen.actor.poses.rotation_xyzw) - own)[:, 1:]
     return int(np.count_nonzero(excess > POP_DEG)), excess.size, float(excess.max())
 
 
@@ -284,12 +286,12 @@ def accelerations(seen: Played) -> tuple[FloatArray, FloatArray]:
     inside, across
         ``(m, j)`` each.
     """
-    q = seen.actor.rotation_xyzw[:, 1:]
+    q = seen.actor.poses.rotation_xyzw[:, 1:]
     speed = np.degrees(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))) * RATE_HZ
     acceleration = np.linalg.norm(np.diff(speed, axis=0), axis=-1) * RATE_HZ
     time_s = seen.time_s[1:-1]
     acts, at = np.zeros(len(time_s), dtype=bool), np.zeros(len(time_s), dtype=bool)
-    for phrase in seen.actor.part.phrases:
+    for phrase in seen.actor.phrases:
         acts |= (time_s > phrase.start_s) & (time_s < phrase.end_s)
         for edge_s in (phrase.start_s, phrase.end_s):
             at |= np.abs(time_s - edge_s) < 1.0 / RATE_HZ

@@ -16,9 +16,10 @@ import numpy as np
 
 from actions_library.folder import load_library
 from benchmarks.process import machine
+from smd.acting.performance import Actor, Performance
+from smd.character.poses import Poses
 from smd.doodle import Doodle
-from smd.score import Part, Phrase, Score
-from smd.transfer.performance import Actor, Performance
+from smd.score import Phrase
 
 RUNS = 5
 
@@ -30,7 +31,7 @@ def walking(seconds: float, rate_hz: float) -> Performance:
     frames = round(seconds * rate_hz) + 1
     rng = np.random.default_rng(0)
     time_s = np.arange(frames) / rate_hz
-    parts, actors = [], []
+    actors = []
     for index, device in enumerate(("left", "right")):
         phase = (np.arange(frames) + 20 * index) % len(clip)
         translation = clip.translation_m[phase].copy()
@@ -39,12 +40,13 @@ def walking(seconds: float, rate_hz: float) -> Performance:
         rotation = clip.rotation_xyzw[phase] + rng.normal(0.0, 1e-4, (frames, 27, 4))
         rotation /= np.linalg.norm(rotation, axis=-1, keepdims=True)
         starts = np.arange(1.0, seconds - 2.0, max(seconds / 10.0, 3.0)).tolist()
-        parts.append(Part(device, tuple(Phrase("walk", s, s + 2.0) for s in starts)))
+        phrases = tuple(Phrase("walk", s, s + 2.0) for s in starts)
         doodle = Doodle(
             time_s, rng.normal(0.0, 1.0, (frames, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (frames, 1))
         )
-        actors.append(Actor(device, library.character, rotation, translation, (doodle,), parts[-1]))
-    return Performance(rate_hz, 0.0, tuple(actors), Score(tuple(parts)))
+        poses = Poses(rotation, translation)
+        actors.append(Actor(device, library.character, poses, phrases, (doodle,)))
+    return Performance(rate_hz, 0.0, tuple(actors))
 
 
 def timed(work: Callable[[], object], runs: int = RUNS) -> str:

@@ -30,11 +30,11 @@ from laban.stillness import is_readable
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.doodle import Doodle
+from smd.expression.body import body_of
+from smd.expression.expressive import expressive
+from smd.expression.study import study_of
 from smd.geometry.arrays import FloatArray
 from smd.smoothing import smooth
-from smd.transfer.body import body_of
-from smd.transfer.expression import expressive
-from smd.transfer.study import study_of
 
 VALUES = (-1.0, -0.5, 0.0, 0.5, 1.0)
 LEAST = 0.5

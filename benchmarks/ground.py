@@ -13,14 +13,14 @@ import numpy as np
 
 from actions_library.folder import load_library
 from actions_library.library import Library
+from smd.acting.flight import GRAVITY_M_S2
+from smd.acting.legs import feet_of, legs_of, world_of
+from smd.acting.performance import Performance
+from smd.acting.terrain import Terrain
 from smd.doodle import Doodle, Recording
 from smd.geometry.rotations import rotate
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
-from smd.transfer.flight import GRAVITY_M_S2
-from smd.transfer.legs import feet_of, legs_of, world_of
-from smd.transfer.performance import Performance
-from smd.transfer.terrain import Terrain
 
 RATE_HZ = 60.0
 LEVEL = np.array([0.0, 0.0, 0.0, 1.0])
@@ -70,9 +70,7 @@ def soles(
     (actor,) = performance.actors
     heights, slides = [], []
     for leg in legs_of(library.character.skeleton, feet_of(library.clip("walk"))):
-        q, ankle = world_of(
-            library.character.skeleton, leg.foot, actor.rotation_xyzw, actor.translation_m
-        )
+        q, ankle = world_of(library.character.skeleton, leg.foot, *actor.poses)
         points = ankle + np.stack([rotate(q, leg.heel_m), rotate(q, leg.ball_m)])
         over = points[..., 1] - ground.height_at(points[..., [0, 2]])
         over[1] -= leg.ball_height_m
@@ -94,7 +92,7 @@ def flown(library: Library) -> None:
             for rise_m in (0.0, 0.3, 1.0):
                 recording, score = take(library, action, lasting_s, way_m=1.0, rise_m=rise_m)
                 (actor,) = animate(score, recording, library, rate_hz=240.0).actors
-                body = actor.translation_m[:, hips, 1]
+                body = actor.poses.translation_m[:, hips, 1]
                 bend = np.diff(body, 2) * 240.0**2
                 top = int(body[1:-1].argmax())
                 fall = -bend[top]

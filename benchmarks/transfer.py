@@ -132,14 +132,14 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
     inside, across, late, phrases, seconds = [], [], [], 0, 0.0
     for recording, score in casts:
         performance = animate(score, recording, library, rate_hz=RATE_HZ)
-        for seen in quality.played(performance, recording, library):
+        for seen in quality.played(performance, recording, score, library):
             skeleton = seen.actor.character.skeleton
             feet.append(
                 quality.measured_feet(skeleton, seen.poses, seen.feet, seen.stands, RATE_HZ)
             )
             toes.append(quality.toes_of_clips_m_s(seen))
             errors.append(quality.path_errors_m(seen))
-            late.append(quality.lateness_s(seen, recording.of(seen.actor.device)))
+            late.append(quality.lateness_s(seen, recording.of(seen.actor.name)))
             begin, done = quality.boundary_gaps_s(seen)
             begins.append(begin)
             dones.append(done)
@@ -148,7 +148,7 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
             within, at = quality.accelerations(seen)
             inside.append(within)
             across.append(at)
-            phrases += len(seen.actor.part.phrases)
+            phrases += len(seen.actor.phrases)
             seconds += len(seen.time_s) / RATE_HZ
     if not feet:
         print(f"{name:24s} nothing to act out")
@@ -164,6 +164,8 @@ def print_casts(name: str, casts: list[Cast], library: Library) -> None:
     )
     print(row(name, feet, more))
     print(f"{'  their clips, as fast':42s} {toes_of(np.concatenate(toes))}")
+    if not len(np.concatenate(late)):
+        return
     print(
         f"  {phrases} phrases, {seconds:.0f} s; begun a frame early: {np.mean(begin > 1.0):.1%}; "
         "halfway later than the prop: 10th, 50th, 90th percentile "

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from smd.errors import ExportError
 
 if TYPE_CHECKING:
-    from smd.transfer.performance import Performance
+    from smd.acting.performance import Performance
 
 WRITERS = {
     ".usda": "exporters.usd:write_usd",

@@ -16,11 +16,11 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 
 from exporters.palette import RGB, srgb_from_linear
 from exporters.performer import DEVICE_KEY
-from exporters.usd import PROPS, SCORE_KEY, START_KEY
+from exporters.phrases import phrases_of
+from exporters.usd import PROPS, START_KEY
 from smd.errors import ExportError
 from smd.geometry.arrays import FloatArray
-from smd.score import Score
-from smd.score_file import score_from_json
+from smd.score import Phrase
 
 _PLAIN_RGB: RGB = (0.20, 0.55, 0.53)
 
@@ -35,12 +35,14 @@ class Figure:
     triangles : (t, 3) int64 over the points of all its meshes.
     point_rgb : (p, 3) sRGB, each in [0, 1].
     joint_count : of its skeleton.
+    phrases : what it performs, where the file says so; in time order.
     """
 
     name: str
     triangles: NDArray[np.int64]
     point_rgb: FloatArray
     joint_count: int
+    phrases: tuple[Phrase, ...]
     _stage: Usd.Stage
     _skeleton: Any
     _targets: tuple[Any, ...]
@@ -97,7 +99,6 @@ class Scene:
     rate_hz : time codes a second.
     first_s, last_s : time of the first and the last time code, on the recording's clock.
     start_code : the first time code.
-    score : where the file carries one.
     """
 
     figures: tuple[Figure, ...]
@@ -105,7 +106,6 @@ class Scene:
     first_s: float
     last_s: float
     start_code: float
-    score: Score | None
 
     def time_code(self, time_s: float) -> float:
         """Return the time code of a time on the recording's clock, within the file's range."""
@@ -127,7 +127,10 @@ def read_scene(path: Path) -> Scene:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
         raise ExportError(f"{path}: expected a USD file, got something else") from error
-    figures = tuple(_figures(stage))
+    try:
+        figures = tuple(_figures(stage))
+    except ExportError as error:
+        raise ExportError(f"{path}: {error}") from error
     if not figures:
         raise ExportError(f"{path}: expected a skinned character (UsdSkel), found none")
     data = stage.GetRootLayer().customLayerData
@@ -140,7 +143,6 @@ def read_scene(path: Path) -> Scene:
         first_s=start_s,
         last_s=start_s + span / rate_hz,
         start_code=stage.GetStartTimeCode(),
-        score=score_from_json(data[SCORE_KEY], str(path)) if SCORE_KEY in data else None,
     )
 
 
@@ -173,6 +175,7 @@ def _figure(stage: Usd.Stage, root: Usd.Prim, skeleton: Any, targets: list[Any])
         triangles=np.concatenate(triangles),
         point_rgb=np.concatenate(colors),
         joint_count=len(skeleton.GetJointOrder()),
+        phrases=phrases_of(root),
         _stage=stage,
         _skeleton=skeleton,
         _targets=tuple(targets),

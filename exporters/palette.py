@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import colorsys
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from smd.character.character import Character
 from smd.geometry.arrays import FloatArray
-from smd.score import Score
 
 RGB = tuple[float, float, float]
 
@@ -25,10 +25,10 @@ _PHRASES = [
 ]
 
 
-def action_colors(score: Score) -> dict[str, RGB]:
-    """Return each action's sRGB colour; which one depends on the Score's set of actions alone."""
-    actions = sorted({phrase.action for part in score.performers for phrase in part.phrases})
-    return {name: _rgb(_PHRASES[i % len(_PHRASES)]) for i, name in enumerate(actions)}
+def action_colors(actions: Iterable[str]) -> dict[str, RGB]:
+    """Return each action's sRGB colour; which one depends on the set of actions alone."""
+    names = sorted(set(actions))
+    return {name: _rgb(_PHRASES[i % len(_PHRASES)]) for i, name in enumerate(names)}
 
 
 def performer_colors(character: Character, index: int) -> list[RGB]:

@@ -21,8 +21,8 @@ from exporters.bounds import body_boxes
 from exporters.palette import RGB, performer_colors
 from exporters.phrases import name_phrases
 from exporters.scenery import define_doodle, define_prop
+from smd.acting.performance import Actor, Performance
 from smd.geometry.arrays import FloatArray
-from smd.transfer.performance import Actor, Performance
 
 DEVICE_KEY = "smd:device"
 """In a SkelRoot's custom data."""
@@ -69,17 +69,18 @@ def define_performer(
     colors = performer_colors(character, performer.index)
     root = define_character(stage, places.actor, character, colors)
     prim = root.GetPrim()
-    prim.SetCustomDataByKey(DEVICE_KEY, actor.device)
-    prim.SetDisplayName(actor.device)
-    name_phrases(prim, performer.performance, actor.part.phrases)
+    prim.SetCustomDataByKey(DEVICE_KEY, actor.name)
+    prim.SetDisplayName(actor.name)
+    name_phrases(prim, performer.performance, actor.phrases)
     if performer.neutral is None:
         boxes = _define_acting(root, actor)
     else:
         boxes = _define_variants(root, actor, performer.neutral)
     # Its target's path, not its prim: inside a variant it is there only while that is selected.
     bind_animation(root, UsdSkel.Animation.Get(stage, f"{places.actor}/{ANIMATION}"))
-    define_doodle(stage, places.doodle, actor, action_colors)
-    define_prop(stage, places.prop, actor, performer.performance)
+    if actor.doodles:
+        define_doodle(stage, places.doodle, actor, action_colors)
+        define_prop(stage, places.prop, actor, performer.performance)
     return boxes
 
 
@@ -99,9 +100,8 @@ def _define_acting(root: UsdSkel.Root, actor: Actor) -> FloatArray:
     """Define how an actor moves, and return the box it is in at each frame, ``(n, 2, 3)``."""
     stage, character = root.GetPrim().GetStage(), actor.character
     path = f"{root.GetPath()}/{ANIMATION}"
-    poses = actor.rotation_xyzw, actor.translation_m
-    define_animation(stage, path, character.skeleton, *poses)
-    boxes = body_boxes(character, *poses)
+    define_animation(stage, path, character.skeleton, *actor.poses)
+    boxes = body_boxes(character, *actor.poses)
     extents = StageFrame.of(stage).boxes(boxes)
     set_samples(root.CreateExtentAttr(), extents, Vt.Vec3fArray)
     return boxes

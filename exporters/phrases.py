@@ -9,8 +9,9 @@ from typing import Any
 from pxr import Usd
 
 from laban import AXES, Effort
+from smd.acting.performance import Performance
+from smd.errors import ExportError, SmdError
 from smd.score import Phrase
-from smd.transfer.performance import Performance
 
 PHRASES_KEY = "smd:phrases"
 """In a SkelRoot's custom data: a dictionary a phrase, by its number from ``p0000`` on."""
@@ -46,6 +47,34 @@ def name_phrases(prim: Usd.Prim, performance: Performance, phrases: tuple[Phrase
         prim.SetCustomDataByKey(PHRASES_KEY, entries)
 
 
+def phrases_of(prim: Usd.Prim) -> tuple[Phrase, ...]:
+    """Return the phrases that `name_phrases` wrote, in time order, their confidence too.
+
+    Raises
+    ------
+    ExportError
+        If what is there was written by somebody else.
+    """
+    entries = prim.GetCustomDataByKey(PHRASES_KEY) or {}
+    try:
+        phrases = [
+            Phrase(
+                str(entry["action"]),
+                float(entry["start_s"]),
+                float(entry["end_s"]),
+                Effort(**entry.get("effort", {})),
+                float(entry["confidence"]),
+            )
+            for entry in entries.values()
+        ]
+    except (AttributeError, KeyError, TypeError, ValueError, SmdError) as error:
+        raise ExportError(
+            f"{prim.GetPath()}: {PHRASES_KEY}: expected phrases as smd writes them, found "
+            f"something else ({error})"
+        ) from error
+    return tuple(sorted(phrases, key=lambda phrase: phrase.start_s))
+
+
 def time_code(time_s: float, performance: Performance) -> float:
     """Return a time on the recording's clock as a time code, not rounded to a frame."""
     return (time_s - performance.start_s) * performance.rate_hz
@@ -66,12 +95,12 @@ def write_phrase_table(performance: Performance, path: Path) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
         table.writeheader()
-        for part in performance.score.performers:
-            for phrase in part.phrases:
+        for actor in performance.actors:
+            for phrase in actor.phrases:
                 effort = effort_read(phrase.effort)
                 table.writerow(
                     {
-                        "device": part.device,
+                        "device": actor.name,
                         "action": phrase.action,
                         "start_s": f"{phrase.start_s:.3f}",
                         "end_s": f"{phrase.end_s:.3f}",

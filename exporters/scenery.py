@@ -10,12 +10,12 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
 from actions_library.stage_frame import StageFrame
 from actions_library.usd_skel import define_material, define_mesh
 from exporters.palette import IDLE_RGB, RGB, linear_from_srgb
+from smd.acting.performance import Actor, Performance
+from smd.acting.terrain import Terrain
 from smd.doodle import Doodle
 from smd.geometry.arrays import FloatArray
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
-from smd.score import Part
-from smd.transfer.performance import Actor, Performance
-from smd.transfer.terrain import Terrain
+from smd.score import Phrase
 
 DOODLE_WIDTH_M = 0.03
 GROUND_RGB: RGB = (0.78, 0.79, 0.80)
@@ -50,7 +50,7 @@ def define_doodle(
     """
     points, counts, colors = [], [], []
     for doodle in actor.doodles:
-        for action, stretch in stretches(doodle, actor.part):
+        for action, stretch in stretches(doodle, actor.phrases):
             points.append(doodle.position_m[stretch])
             counts.append(len(points[-1]))
             colors.append(action_colors[action] if action else IDLE_RGB)
@@ -74,13 +74,13 @@ def define_doodle(
     shown.SetIndices(Vt.IntArray([seen.index(color) for color in colors]))
 
 
-def stretches(doodle: Doodle, part: Part) -> Iterator[tuple[str, slice]]:
+def stretches(doodle: Doodle, phrases: Sequence[Phrase]) -> Iterator[tuple[str, slice]]:
     """Yield each stretch of a doodle with its phrase's action, empty where there is none.
 
     A stretch has at least two samples; its last is the next one's first.
     """
-    starts = np.array([phrase.start_s for phrase in part.phrases])
-    ends = np.array([phrase.end_s for phrase in part.phrases])
+    starts = np.array([phrase.start_s for phrase in phrases])
+    ends = np.array([phrase.end_s for phrase in phrases])
     middle_s = 0.5 * (doodle.time_s[1:] + doodle.time_s[:-1])
     index = np.searchsorted(starts, middle_s, side="right") - 1
     inside = index >= 0
@@ -89,14 +89,16 @@ def stretches(doodle: Doodle, part: Part) -> Iterator[tuple[str, slice]]:
     edges = np.flatnonzero(np.diff(label)) + 1
     for first, last in zip([0, *edges], [*edges, len(label)], strict=True):
         if last > first:
-            action = part.phrases[label[first]].action if label[first] >= 0 else ""
+            action = phrases[label[first]].action if label[first] >= 0 else ""
             yield action, slice(int(first), int(last) + 1)
 
 
-def doodle_box(actor: Actor) -> FloatArray:
-    """Return the box ``(1, 2, 3)`` that an actor's doodles and prop are in."""
+def doodle_boxes(actor: Actor) -> list[FloatArray]:
+    """Return the box ``(1, 2, 3)`` that an actor's doodles and prop are in, if it has any."""
+    if not actor.doodles:
+        return []
     every = np.concatenate([doodle.position_m for doodle in actor.doodles])
-    return np.stack([every.min(axis=0) - REACH_M, every.max(axis=0) + REACH_M])[None]
+    return [np.stack([every.min(axis=0) - REACH_M, every.max(axis=0) + REACH_M])[None]]
 
 
 def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performance) -> None:

@@ -80,23 +80,21 @@ def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
 
 def _rows(scene: Scene, most_rows: int) -> Iterator[Row]:
     """Yield the phrases in time order, or, where there are none, windows of all the time."""
-    names = [figure.name for figure in scene.figures]
-    colors = action_colors(scene.score) if scene.score else {}
+    colors = action_colors(phrase.action for f in scene.figures for phrase in f.phrases)
     phrases = [
-        Row(p.action, names.index(part.device), p.start_s, p.end_s, p.effort, colors[p.action])
-        for part in (scene.score.performers if scene.score else ())
-        if part.device in names
-        for p in part.phrases
+        Row(p.action, index, p.start_s, p.end_s, p.effort, colors[p.action])
+        for index, figure in enumerate(scene.figures)
+        for p in figure.phrases
         if p.end_s > scene.first_s and p.start_s < scene.last_s
     ]
     if phrases:
         yield from sorted(phrases, key=lambda row: (row.start_s, row.figure))
         return
     wanted = int(np.ceil((scene.last_s - scene.first_s) / WINDOW_S))
-    count = max(1, min(wanted, most_rows // len(names)))
+    count = max(1, min(wanted, most_rows // len(scene.figures)))
     edges = np.linspace(scene.first_s, scene.last_s, count + 1)
     for start_s, end_s in pairwise(edges.tolist()):
-        for index in range(len(names)):
+        for index in range(len(scene.figures)):
             yield Row(None, index, start_s, end_s, Effort(), _WINDOW_RGB)
 
 

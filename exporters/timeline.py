@@ -80,6 +80,7 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
     first_s = min(doodle.time_s[0] for doodle in recording.doodles)
     last_s = max(doodle.time_s[-1] for doodle in recording.doodles)
     model = load_effort_model()
+    colors = action_colors(phrase.action for part in score.performers for phrase in part.phrases)
     figure, lanes = _sheet(len(parts), float(first_s), float(last_s))
     for part, axes in zip(parts, lanes, strict=True):
         motions = list(_motions(recording.of(part.device)))
@@ -94,9 +95,7 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         _draw_trajectory(axes["trajectory"], [motion for _, motion in motions], part.device)
         _draw_blocks(axes["moves"], _token_blocks(strings, lambda token: token.translation, "T"))
         _draw_blocks(axes["turns"], _token_blocks(strings, lambda token: token.rotation, "R"))
-        _draw_blocks(
-            axes["phrase"], _phrase_blocks(part, action_colors(score)) + _suggestion_blocks(part)
-        )
+        _draw_blocks(axes["phrase"], _phrase_blocks(part, colors) + _suggestion_blocks(part))
         curves = [effort_over_time(motion, model) for _, motion in motions]
         _draw_effort(axes["effort"], part, curves)
         _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])

@@ -26,21 +26,20 @@ from actions_library.stage_frame import OURS, StageFrame
 from actions_library.storage import new_stage
 from actions_library.usd_skel import unique_identifiers
 from exporters.package import write_package
-from exporters.palette import action_colors
+from exporters.palette import RGB, action_colors
 from exporters.performer import Performer, Places, define_performer
-from exporters.scenery import define_camera, define_ground, doodle_box
+from exporters.scenery import define_camera, define_ground, doodle_boxes
+from smd.acting.performance import Performance
 from smd.errors import ExportError
 from smd.files import write_together
 from smd.geometry.arrays import FloatArray
-from smd.score_file import score_to_json
-from smd.transfer.performance import Performance
 
 ROOT, PERFORMER = "Performance", "Performer"
 ACTORS, DOODLES, PROPS, SCENERY = (
     f"/{ROOT}/{name}" for name in ("Actors", "Doodles", "Props", "Scenery")
 )
-SCORE_KEY, START_KEY = "smd:score", "smd:start_s"
-"""In the layer's custom data."""
+START_KEY = "smd:start_s"
+"""In the layer's custom data, beside the performance's source: ``smd:`` and each entry's name."""
 
 _IN_LAYER = Places(*(f"/{PERFORMER}/{name}" for name in ("Actor", "Doodle", "Prop")))
 
@@ -111,7 +110,7 @@ def usd_layers(
     _define_scopes(stage)
     files: Files = {}
     boxes, references = [], []
-    colors = action_colors(performance.score)
+    colors = _colors(performance)
     performers = _performers(performance, neutral)
     names = _names(performance)
     # Where the file system does not tell Left from left, two layers would be one.
@@ -121,7 +120,7 @@ def usd_layers(
         UsdGeom.Xform.Define(inside, f"/{PERFORMER}")
         boxes += [
             define_performer(inside, _IN_LAYER, performer, colors),
-            doodle_box(performer.actor),
+            *doodle_boxes(performer.actor),
         ]
         beside = path.with_name(f"{path.stem}.{file_name}.usdc")
         files[beside] = partial(_export, inside.GetRootLayer(), beside)
@@ -151,13 +150,13 @@ def performance_stage(
     """Return a performance as a stage in memory; parameters are those of `write_usd`."""
     stage = _new_stage(performance, ROOT, frame)
     _define_scopes(stage)
-    colors = action_colors(performance.score)
+    colors = _colors(performance)
     boxes = []
     performers = _performers(performance, neutral)
     for name, performer in zip(_names(performance), performers, strict=True):
         boxes += [
             define_performer(stage, _places(name), performer, colors),
-            doodle_box(performer.actor),
+            *doodle_boxes(performer.actor),
         ]
     _define_scenery(stage, performance, boxes)
     return stage
@@ -185,7 +184,7 @@ def _define_scenery(
     define_ground(stage, f"{SCENERY}/Ground", boxes, performance.terrain)
     define_camera(stage, f"{SCENERY}/Camera", boxes)
     stage.GetRootLayer().customLayerData = {
-        SCORE_KEY: score_to_json(performance.score),
+        **{f"smd:{name}": text for name, text in performance.source.items()},
         START_KEY: performance.start_s,
     }
 
@@ -194,7 +193,7 @@ def _performers(performance: Performance, neutral: Performance | None) -> list[P
     if neutral is None:
         return [Performer(performance, i) for i in range(len(performance.actors))]
     told = [
-        (p.rate_hz, p.start_s, len(p), [(a.device, a.character.skeleton.joints) for a in p.actors])
+        (p.rate_hz, p.start_s, len(p), [(a.name, a.character.skeleton.joints) for a in p.actors])
         for p in (performance, neutral)
     ]
     if told[0] != told[1]:
@@ -202,8 +201,12 @@ def _performers(performance: Performance, neutral: Performance | None) -> list[P
     return [Performer(performance, i, actor) for i, actor in enumerate(neutral.actors)]
 
 
+def _colors(performance: Performance) -> dict[str, RGB]:
+    return action_colors(phrase.action for a in performance.actors for phrase in a.phrases)
+
+
 def _names(performance: Performance) -> list[str]:
-    return unique_identifiers(actor.device for actor in performance.actors)
+    return unique_identifiers(actor.name for actor in performance.actors)
 
 
 def _places(name: str) -> Places:

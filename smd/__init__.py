@@ -14,10 +14,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
     from actions_library.folder import load_library
     from actions_library.stage_frame import StageFrame
     from exporters import write
+    from smd.acting.performance import Performance
+    from smd.cast import Cast
     from smd.doodle import Doodle, Recording
     from smd.errors import SmdError
     from smd.formats import SourceFrame, read_recording, write_recording
@@ -25,12 +26,11 @@ if TYPE_CHECKING:
     from smd.score import Phrase, Score
     from smd.score_file import read_score, write_score
     from smd.smoothing import smooth
-    from smd.transfer.performance import Performance
 
 _HOME = {
-    "Cast": "actions_library.cast",
+    "Cast": "smd.cast",
     "Doodle": "smd.doodle",
-    "Performance": "smd.transfer.performance",
+    "Performance": "smd.acting.performance",
     "Phrase": "smd.score",
     "Recording": "smd.doodle",
     "Score": "smd.score",

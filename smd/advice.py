@@ -22,7 +22,7 @@ from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
+    from smd.cast import Cast
     from smd.recognition.spotting import Recognizer
     from smd.score import Score
 

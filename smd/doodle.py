@@ -16,6 +16,9 @@ from smd.geometry.rotations import sign_continuous
 DEFAULT_FIGURE_HEIGHT_M = 0.175
 """Height of the figurine that a prop stands for; 1 : 10 of a person of 1.75 m."""
 
+HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
+"""Names of devices that are worn, not played with."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Doodle:

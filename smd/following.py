@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from laban import RigidMotion
+from smd.acting.legs import feet_of
 from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import heading_rad
 from smd.score import Phrase
-from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.ground_root import ground_root, turned
-from smd.transfer.legs import feet_of
 
 if TYPE_CHECKING:
-    from actions_library.library import Library
+    from smd.cast import ActionLibrary
 
 PREFERRED = ("walk", "run", "walk_backward", "side_step_left", "side_step_right")
 """What somebody does who just goes along; other gaits, such as sneaking, mean something."""
@@ -58,7 +58,7 @@ class Pace:
     direction_rad: float
 
 
-def paces(library: Library) -> tuple[Pace, ...]:
+def paces(library: ActionLibrary) -> tuple[Pace, ...]:
     """Return the gaits of a library; of those that are preferred where it has any."""
     found = []
     for action in library.actions:
@@ -75,7 +75,7 @@ def paces(library: Library) -> tuple[Pace, ...]:
 def going_along(
     phrases: Sequence[Phrase],
     motions: Sequence[RigidMotion],
-    library: Library,
+    library: ActionLibrary,
     *,
     figure_height_m: float,
 ) -> tuple[Phrase, ...]:

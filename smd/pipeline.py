@@ -7,24 +7,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, HEADSETS
 from smd.errors import DoodleError, ScoreError
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
-    from actions_library.library import Library
     from laban import EffortModel, RigidMotion
+    from smd.acting.performance import Performance
+    from smd.acting.terrain import Terrain
+    from smd.cast import ActionLibrary, Cast
     from smd.doodle import Doodle, Recording
     from smd.recognition.recognizer import Span
     from smd.recognition.spotting import Recognizer
     from smd.recognition.suggestions import Understood
     from smd.score import Phrase, Score, Suggestion
-    from smd.transfer.performance import Performance
-    from smd.transfer.terrain import Terrain
-
-HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
-"""Names of devices that are worn, not played with."""
-
 
 UNEXPLAINED = ("leave", "follow")
 """What is made of travel in which nothing is recognised."""
@@ -32,7 +27,7 @@ UNEXPLAINED = ("leave", "follow")
 
 def parse(
     recording: Recording,
-    library: Library | Cast,
+    library: ActionLibrary | Cast,
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
     devices: Collection[str] | None = None,
@@ -76,8 +71,8 @@ def parse(
     LibraryError
         If a cast has a library for a device that is not in the recording.
     """
-    from actions_library.cast import cast_of
     from laban import load_effort_model
+    from smd.cast import cast_of
     from smd.following import going_along
     from smd.recognition.acceptance import Intent
     from smd.recognition.recognizers import recognizer_of
@@ -158,7 +153,7 @@ def _understood(doodle: Doodle, recognizer: Recognizer) -> Understood:
 def _suggestions(
     understood: Sequence[Understood],
     recognizer: Recognizer,
-    library: Library,
+    library: ActionLibrary,
     figure_height_m: float,
 ) -> Iterator[Suggestion]:
     """Yield what a performer did that nothing explains; times to the millisecond, as phrases'."""
@@ -228,7 +223,7 @@ def _never_tracked(recording: Recording) -> Iterator[str]:
 def animate(
     score: Score,
     recording: Recording,
-    library: Library | Cast,
+    library: ActionLibrary | Cast,
     *,
     rate_hz: float = 24.0,
     expressiveness: float = 1.0,
@@ -266,8 +261,8 @@ def animate(
     TransferError
         If it cannot be acted out, or there is no ground, or more than one, below a way.
     """
+    from actions_library.importers.usd_ground import read_terrain
     from smd.transfer.perform import perform
-    from smd.transfer.terrain import read_terrain
 
     return perform(
         score,

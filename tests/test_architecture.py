@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,61 @@ def test_imports_run_one_way(path):
     for imported in imports_of(path):
         theirs = layer_of(imported)
         assert theirs is None or theirs <= own, f"{module_name(path)} imports {imported}"
+
+
+FACE = ("smd", "smd.pipeline", "smd.cli")
+"""What users meet: it may ask any package, lazily."""
+
+
+def package_of(module: str) -> str:
+    """Return the innermost package of ours that a module is in; itself where it is one."""
+    path = ROOT.joinpath(*module.split("."))
+    return module if path.is_dir() else module.rpartition(".")[0]
+
+
+def is_face(module: str) -> bool:
+    return module in FACE or module.startswith("smd.cli.")
+
+
+def ours(module: str) -> bool:
+    return layer_of(module) is not None
+
+
+def graph_of(node) -> dict[str, set[str]]:
+    """Return what each node imports; ``node`` names the one that a module belongs to."""
+    graph: dict[str, set[str]] = {}
+    for path in MODULES:
+        name = module_name(path)
+        if is_face(name):
+            continue
+        imported = {node(one) for one in imports_of(path) if ours(one)}
+        graph.setdefault(node(name), set()).update(imported - {node(name)})
+    return graph
+
+
+@pytest.mark.parametrize(
+    "node",
+    [lambda name: name, package_of, lambda name: name.split(".")[0]],
+    ids=["modules", "packages", "top-level packages"],
+)
+def test_nothing_imports_in_a_circle(node):
+    # A module at the top of smd is a package of one, and a program is above what it runs.
+    def of(name: str) -> str:
+        alone = name.endswith("__main__") or (node is package_of and node(name) == "smd")
+        return name if alone else node(name)
+
+    tuple(TopologicalSorter(graph_of(of)).static_order())
+
+
+def test_a_circle_would_be_found():
+    graph = graph_of(lambda name: name)
+    graph["smd.geometry.arrays"] = {"smd.transfer.perform"}
+    with pytest.raises(CycleError):
+        tuple(TopologicalSorter(graph).static_order())
+
+
+def test_smd_behind_its_face_knows_no_other_package_but_laban():
+    assert graph_of(lambda name: name.split(".")[0])["smd"] <= {"laban"}
 
 
 def test_every_place_on_the_page_exists():

@@ -14,7 +14,8 @@ from actions_library.adoption.clip import Adopted, adopted_clip
 from actions_library.extension import put_clip
 from actions_library.folder import write_library
 from actions_library.importers.imported import Animation, Imported
-from actions_library.library import IDLE, Credit, Library
+from actions_library.library import Credit, Library
+from smd.cast import IDLE
 from smd.character.character import Character
 from smd.character.clip import Clip
 from smd.errors import LibraryError

@@ -7,7 +7,7 @@ direction that is meant together with its neighbours; ``docs/recognition.md`` ha
 
 from __future__ import annotations
 
-from actions_library.library import IDLE
+from smd.cast import IDLE
 from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
 

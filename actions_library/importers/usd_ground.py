@@ -11,19 +11,23 @@ from actions_library.importers.imported import checked_unit, fault, to_y_up
 from actions_library.importers.usd_layers import check_layers, check_used, first_line
 from actions_library.importers.usd_meshes import fans
 from actions_library.importers.usd_values import numbers
+from smd.acting.terrain import Terrain
 from smd.geometry.arrays import FloatArray, IntArray
 
 
-def read_ground(path: Path | str) -> tuple[FloatArray, IntArray]:
-    """Return the points ``(v, 3)`` and triangles ``(t, 3)`` of all visible meshes of a USD file.
+def read_terrain(path: Path | str) -> Terrain:
+    """Read a terrain from all visible meshes of a USD file.
 
-    They are in metres, +Y up, counter-clockwise from outside, wherever the file's up axis, unit,
-    transforms and orientation have them. Guides, proxies and what is invisible are left out.
+    Wherever the file's up axis, unit, transforms and orientation have them, they become metres,
+    +Y up, counter-clockwise from outside. Guides, proxies and what is invisible are left out. The
+    terrain's origin is the stage's: the middle of the devices' first places.
 
     Raises
     ------
     ImportedFileError
-        If it is not a USD file, or holds no mesh of finite points.
+        If it is no USD file, or holds no mesh of finite points.
+    TransferError
+        If no part of it is level enough to stand on.
     """
     path = Path(path)
     if not path.is_file():
@@ -32,12 +36,14 @@ def read_ground(path: Path | str) -> tuple[FloatArray, IntArray]:
     try:
         stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
         check_used(path, stage)
-        return _read(path, stage)
+        points_m, triangles = _read(path, stage)
     except (Tf.ErrorException, UnicodeDecodeError) as error:
         raise fault(path, "", "a USD file", first_line(error)) from None
+    return Terrain(points_m, triangles, name=str(path))
 
 
 def _read(path: Path, stage: Usd.Stage) -> tuple[FloatArray, IntArray]:
+    """Return the points ``(v, 3)`` and triangles ``(t, 3)`` of what is seen, in our frame."""
     change = to_y_up(path, str(UsdGeom.GetStageUpAxis(stage)).lower()) * checked_unit(
         path, UsdGeom.GetStageMetersPerUnit(stage)
     )

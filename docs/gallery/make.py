@@ -16,9 +16,9 @@ from exporters.action_picture import write_action_picture
 from exporters.filmstrip import write_filmstrip
 from exporters.timeline import write_timeline
 from laban import Effort
-from smd.transfer.body import body_of
-from smd.transfer.expression import expressive
-from smd.transfer.study import study_of
+from smd.expression.body import body_of
+from smd.expression.expressive import expressive
+from smd.expression.study import study_of
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE.parents[1] / "recordings"

@@ -8,9 +8,8 @@ from operator import itemgetter
 from pathlib import Path
 
 from smd.capture.source import Device, Frame, Pose, Sample
-from smd.doodle import Doodle, Recording
+from smd.doodle import HEADSETS, Doodle, Recording
 from smd.formats import SourceFrame, read_recording
-from smd.pipeline import HEADSETS
 
 BETWEEN_S = 1.0
 """From the last frame of one recording to the first of the next."""

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.runs import runs_of_true
 
 LOW, SLOW_PER_S = 0.044, 0.35
 """Height above rest and speed, in leg lengths, up to which a joint touches."""
@@ -61,7 +62,7 @@ def contacts(
 def _with_hysteresis(how: FloatArray) -> BoolArray:
     """Return where a signal is within 1, and went beyond `LEAVING` not since."""
     touching = how <= 1.0
-    runs = _runs(how <= LEAVING)
+    runs = runs_of_true(how <= LEAVING)
     for start, end in runs:
         inside = np.flatnonzero(touching[start:end])
         if len(inside):
@@ -69,14 +70,8 @@ def _with_hysteresis(how: FloatArray) -> BoolArray:
     return touching
 
 
-def _runs(on: BoolArray) -> list[tuple[int, int]]:
-    """Return first and one past the last of each stretch of true."""
-    edges = np.diff(np.concatenate([[0], on.astype(np.int8), [0]]))
-    return list(zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True))
-
-
 def _without_shorter(on: BoolArray, shortest: int, *, value: bool) -> None:
     """Flip stretches of a value that are shorter than some frames and lie inside."""
-    for start, end in _runs(on == value):
+    for start, end in runs_of_true(on == value):
         if end - start < shortest and start > 0 and end < len(on):
             on[start:end] = not value

@@ -10,7 +10,7 @@ import typer
 from smd.cli import reading, writing
 
 if TYPE_CHECKING:
-    from smd.transfer.performance import Performance
+    from smd.acting.performance import Performance
 
 
 def animate(
@@ -36,9 +36,9 @@ def animate(
     It is played on its recording's path and in its timing.
     """
     import smd
+    from actions_library.importers.usd_ground import read_terrain
     from smd.errors import ScoreError
     from smd.score_file import read_score
-    from smd.transfer.terrain import read_terrain
 
     written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
     written.check(output)
@@ -65,4 +65,4 @@ def animate(
 
     performance = written.write(score, act, expressiveness, output)
     said = f"{output}: {reading.summary(take, score)}"
-    typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
+    typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))

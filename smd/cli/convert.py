@@ -12,7 +12,7 @@ from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
 
 if TYPE_CHECKING:
-    from smd.transfer.performance import Performance
+    from smd.acting.performance import Performance
 
 
 def convert(
@@ -51,7 +51,7 @@ def convert(
     A file in, a file out; a folder in, a folder out.
     """
     import smd
-    from smd.transfer.terrain import read_terrain
+    from actions_library.importers.usd_ground import read_terrain
 
     files = list(reading.recording_files(recordings))
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
@@ -90,7 +90,7 @@ def convert(
 
         performance = written.write(score, act, expressiveness, outputs[index])
         said = f"{outputs[index]}: {reading.summary(recording, score)}"
-        typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
+        typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))
         for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
             typer.echo(f"  {line}")
 

@@ -9,7 +9,7 @@ from smd.recognition.acceptance import Intent
 from smd.recognition.recognizers import recognizer_of
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
+    from smd.cast import Cast
     from smd.doodle import Doodle, Recording
     from smd.recognition import Match
     from smd.score import Part, Phrase, Score

@@ -101,7 +101,8 @@ def import_(
     import smd
     from actions_library.adoption.library import import_clip
     from actions_library.importers import import_file
-    from actions_library.library import IDLE, Credit
+    from actions_library.library import Credit
+    from smd.cast import IDLE
     from smd.errors import LibraryError
 
     library = smd.load_library(folder)

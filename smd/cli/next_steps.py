@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
+    from smd.cast import Cast
     from smd.doodle import Recording
     from smd.score import Score
 

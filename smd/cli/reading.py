@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from actions_library.cast import Cast
     from actions_library.library import Library
+    from smd.cast import Cast
     from smd.doodle import Doodle, Recording
     from smd.score import Score
 
@@ -305,8 +305,8 @@ def doodles_of_one(recording: Recording, device: str | None) -> tuple[Doodle, ..
     RecordingError
         If there is no such device, or several to choose from.
     """
+    from smd.doodle import HEADSETS
     from smd.errors import RecordingError
-    from smd.pipeline import HEADSETS
 
     known = recording.devices
     played = [name for name in known if name.lower() not in HEADSETS] or list(known)

@@ -13,8 +13,8 @@ import typer
 from smd.cli.reading import PHRASES_SUFFIX
 
 if TYPE_CHECKING:
+    from smd.acting.performance import Performance
     from smd.score import Score
-    from smd.transfer.performance import Performance
 
 
 _USD = (".usda", ".usdc", ".usdz")

@@ -1,1 +1,1 @@
-"""Rotations, rigid transforms, frames and resampling: arrays in, arrays out, no project types."""
+"""Rotations, rigid transforms, resampling and easing: arrays in, arrays out, no project types."""

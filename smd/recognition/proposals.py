@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.runs import runs_of_true
 from smd.recognition.bank import Bank
 from smd.recognition.costs import RunCosts
 from smd.recognition.tokens import TokenRun
@@ -63,8 +64,7 @@ def rest_to_rest(is_still: BoolArray) -> list[tuple[int, int]]:
     A pattern learned from three examples does not know all ways to draw its action, and where
     they fall short, a rest still tells where a gesture begins and ends.
     """
-    steps = np.diff((~is_still).astype(np.int8), prepend=0, append=0)
-    firsts, lasts = np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()
+    firsts, lasts = runs_of_true(~is_still).T.tolist()
     return [(first, last) for i, first in enumerate(firsts) for last in lasts[i : i + MOST_STROKES]]
 
 

@@ -10,6 +10,7 @@ from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import inverse, normalized, rotate
+from smd.geometry.runs import runs_of_true
 from smd.recognition.tokens import Direction, Token, TokenRun
 
 _SIGNS = (-1, 0, 1)
@@ -148,18 +149,12 @@ def _bins(
     return bins
 
 
-def _edges(mask: BoolArray) -> tuple[IntArray, IntArray]:
-    """Return where the runs of true begin and where they end (excluded)."""
-    steps = np.diff(mask.astype(np.int8), prepend=0, append=0)
-    return np.flatnonzero(steps == 1), np.flatnonzero(steps == -1)
-
-
 def _joined_to(strong: BoolArray, weak: BoolArray) -> BoolArray:
     """Return the runs of ``weak`` that hold a sample of ``strong``: hysteresis both ways in time.
 
     A gesture so begins where it leaves rest, not where it reaches the threshold.
     """
-    first, last = _edges(weak)
+    first, last = runs_of_true(weak).T
     count = np.concatenate([[0], np.cumsum(strong)])
     kept = count[last] > count[first]
     change = np.zeros(len(weak) + 1, np.int64)
@@ -175,7 +170,7 @@ def _from_onset(length: FloatArray, held: BoolArray, onset: float) -> BoolArray:
     """
     widened = held.copy()
     speed = length.tolist()
-    first, last = (edges.tolist() for edges in _edges(held))
+    first, last = runs_of_true(held).T.tolist()
     for i, (begin, end) in enumerate(zip(first, last, strict=True)):
         floor = onset * max(speed[begin:end])
         earliest, latest = last[i - 1] if i else 0, [*first, len(speed)][i + 1]

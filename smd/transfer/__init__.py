@@ -1,1 +1,1 @@
-"""From a Score to a Performance: path, clips, timing, transitions, contacts."""
+"""Transfer: a Score and its recording come in, the moves of each performer go out."""

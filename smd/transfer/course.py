@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from actions_library.library import IDLE
+from smd.acting.move import Move, Placement, nearest_turn
+from smd.cast import IDLE
 from smd.score import Phrase
 from smd.transfer.gait import phase_after
 from smd.transfer.in_place import Facing, facing, gesture, idling, turn, turn_passes, turns
-from smd.transfer.move import Move, Placement, nearest_turn
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece, Repertoire
 from smd.transfer.timeline import Span
@@ -24,7 +24,7 @@ from smd.transfer.travelling import along_path, leap
 
 def course(
     spans: Sequence[Span], path: GroundPath, pieces: Repertoire, *, clock_s: float
-) -> tuple[Move, ...]:
+) -> tuple[Move[Piece], ...]:
     """Return the moves of a performer.
 
     Places come from the path's differences, headings from the prop itself: the character stands
@@ -37,7 +37,7 @@ def course(
     """
     start_s = spans[0].start_s
     at = Placement(path.at(start_s), float(path.heading_at(start_s)))
-    moves: list[Move] = []
+    moves: list[Move[Piece]] = []
     rest = IDLE
     cast = [None if span.phrase is None else pieces.of(span.phrase) for span in spans]
     for i, (span, piece) in enumerate(zip(spans, cast, strict=True)):
@@ -112,10 +112,10 @@ def _acted(
     pause_s: float,
     path: GroundPath,
     at: Placement,
-    before: Move | None,
+    before: Move[Piece] | None,
     *,
     into_gait: bool,
-) -> list[Move]:
+) -> list[Move[Piece]]:
     """Return the moves that act out a phrase: one, but for a turn that takes several passes.
 
     Parameters
@@ -152,7 +152,7 @@ def _acted(
         return [gesture(piece, start_s, end_s, at, pause_s=pause_s)]
     passes = turn_passes(piece, float(path.heading_at(end_s) - path.heading_at(start_s)))
     edges = [start_s + (end_s - start_s) * i / len(passes) for i in range(len(passes) + 1)]
-    moves: list[Move] = []
+    moves: list[Move[Piece]] = []
     for first_s, last_s, turn_rad in zip(edges[:-1], edges[1:], passes, strict=True):
         after_s = pause_s if last_s == edges[-1] else 0.0
         moves.append(turn(piece, first_s, last_s, at, turn_rad, pause_s=after_s))

@@ -9,8 +9,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from smd.acting.move import Move
 from smd.transfer.gait import LONGEST_STRIDE
-from smd.transfer.move import Move
+from smd.transfer.repertoire import Piece
 from smd.transfer.travelling import NOWHERE_M
 
 FASTEST_PLAYED = 3.0
@@ -20,7 +21,7 @@ SEEN = 0.5
 """Presence from which a gait's steps count: what is stood through has none."""
 
 
-def demands(device: str, moves: Sequence[Move]) -> Iterator[str]:
+def demands(device: str, moves: Sequence[Move[Piece]]) -> Iterator[str]:
     """Yield a line for each action of a performer that its doodle asks too much of, in order.
 
     Each names the first phrase's time and the most that is asked for.
@@ -73,7 +74,7 @@ def demands(device: str, moves: Sequence[Move]) -> Iterator[str]:
         )
 
 
-def fastest_pace(move: Move) -> float:
+def fastest_pace(move: Move[Piece]) -> float:
     """Return how many times as fast as it was made a clip is played at the most; 0 of a cycle."""
     if move.piece.clip.cyclic:
         return 0.0
@@ -81,12 +82,12 @@ def fastest_pace(move: Move) -> float:
     return float(pace_hz.max(initial=0.0) / move.piece.clip.rate_hz)
 
 
-def way_of(move: Move) -> float:
+def way_of(move: Move[Piece]) -> float:
     """Return how far a move goes over the ground, in metres."""
     return float(np.linalg.norm(np.diff(move.root_m, axis=0), axis=-1).sum())
 
 
-def steps_per_min(move: Move) -> float:
+def steps_per_min(move: Move[Piece]) -> float:
     """Return how many steps a minute a gait takes while it is seen."""
     assert move.piece.gait is not None
     seen = 0.5 * (move.presence[1:] + move.presence[:-1]) >= SEEN
@@ -95,7 +96,7 @@ def steps_per_min(move: Move) -> float:
     return float(60.0 * cycles * len(move.piece.gait.passings) / max(lasting_s, 1e-9))
 
 
-def stride_ratio(move: Move) -> float:
+def stride_ratio(move: Move[Piece]) -> float:
     """Return how much longer than its clip's a gait's stride is, on average."""
     assert move.piece.gait is not None
     cycles = (move.frame[-1] - move.frame[0]) / move.piece.last_frame

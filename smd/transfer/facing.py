@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.transfer.easing import gaussian_smoothed, smootherstep
+from smd.geometry.easing import gaussian_smoothed, smootherstep
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece, Repertoire
 from smd.transfer.timeline import Span

@@ -9,6 +9,7 @@ import numpy as np
 
 from smd.character.clip import Clip
 from smd.geometry.arrays import BoolArray
+from smd.geometry.runs import runs_of_true
 
 SHORTEST_STRIDE, LONGEST_STRIDE = 0.75, 1.25
 """How far a stride may shrink or stretch from its clip's: within a human leg's means."""
@@ -143,7 +144,5 @@ def _middles(signal: BoolArray) -> list[float]:
         return []
     n = len(signal)
     first_off = int(np.argmin(signal))
-    rolled = np.roll(signal, -first_off).astype(np.int8)
-    edges = np.diff(np.concatenate([[0], rolled, [0]]))
-    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
-    return [float(((s + e - 1) / 2 + first_off) % n / n) for s, e in zip(starts, ends, strict=True)]
+    runs = runs_of_true(np.roll(signal, -first_off))
+    return [float(((first + end - 1) / 2 + first_off) % n / n) for first, end in runs]

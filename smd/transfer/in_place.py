@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from smd.acting.move import Move, Placement, knots
 from smd.geometry.arrays import FloatArray
-from smd.transfer.easing import smootherstep
+from smd.geometry.easing import smootherstep
 from smd.transfer.ground_root import turned
-from smd.transfer.move import Move, Placement, knots
 from smd.transfer.pacing import Pacing, paced
 from smd.transfer.repertoire import Piece
 
@@ -58,7 +58,7 @@ def facing(turn_rad: float, start_s: float, end_s: float) -> Facing:
 
 def idling(
     piece: Piece, start_s: float, end_s: float, at: Placement, facing: Facing, *, clock_s: float
-) -> Move:
+) -> Move[Piece]:
     """Stand where the last phrase ended, and face where the next one will at its start.
 
     Parameters
@@ -84,7 +84,7 @@ def idling(
 
 def gesture(
     piece: Piece, start_s: float, end_s: float, at: Placement, *, pause_s: float = 0.0
-) -> Move:
+) -> Move[Piece]:
     """Play a clip on the spot, once, or as often as its own time allows if it is cyclic.
 
     The heading holds. A step that the clip itself takes is taken.
@@ -113,6 +113,7 @@ def gesture(
         heading_rad=np.full(len(time_s), at.heading_rad),
         frame=frame,
         presence=np.ones(len(time_s)),
+        airborne=piece.airborne,
     )
 
 
@@ -142,7 +143,7 @@ def turn(
     turn_rad: float,
     *,
     pause_s: float = 0.0,
-) -> Move:
+) -> Move[Piece]:
     """Turn by an angle, with the clip's own course of turning; `pause_s` as in `gesture`."""
     pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
     time_s = knots(start_s, pacing.end_s)
@@ -156,4 +157,5 @@ def turn(
         heading_rad=at.heading_rad + piece.root.yaw_at(frame) / piece.root.turn_rad * turn_rad,
         frame=frame,
         presence=np.ones(len(time_s)),
+        airborne=piece.airborne,
     )

@@ -15,8 +15,8 @@ import numpy as np
 
 from smd.character.clip import STAGES, Clip
 from smd.geometry.arrays import FloatArray
+from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import inverse, rotate
-from smd.transfer.easing import gaussian_smoothed
 
 NEAR_M = 0.2
 """Mean distance of the joints from where a clip's last pose has them, up to which a transition

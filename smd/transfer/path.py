@@ -11,9 +11,9 @@ import numpy as np
 from smd.doodle import Doodle
 from smd.errors import DoodleError, TransferError
 from smd.geometry.arrays import FloatArray, frozen_array
+from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import rotate
 from smd.smoothing import RATE_HZ, smooth
-from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.stage import Stage
 
 PATH_SIGMA_S = 0.06

@@ -9,31 +9,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from actions_library.cast import Cast, cast_of
-from actions_library.library import Library
-from smd.character.character import Character
+from smd.acting.act import Frames, act
+from smd.acting.company import apart, encounters
+from smd.acting.move import Move
+from smd.acting.moving import Idling
+from smd.acting.performance import Performance
+from smd.acting.terrain import Terrain
+from smd.cast import ActionLibrary, Cast, cast_of
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import quaternion_about, sign_continuous
 from smd.score import Part, Phrase, Score
-from smd.transfer.acting import acted_contacts, acted_poses
-from smd.transfer.company import apart, encounters
+from smd.score_file import score_to_json
 from smd.transfer.course import course
 from smd.transfer.demands import demands
-from smd.transfer.easing import gaussian_smoothed
 from smd.transfer.facing import HEADINGS
-from smd.transfer.flight import flights, height_of, in_air, raised
-from smd.transfer.grounding import Rise, grounded
-from smd.transfer.legs import pelvis_of
-from smd.transfer.move import Move
 from smd.transfer.path import ground_path
-from smd.transfer.performance import Actor, Performance
-from smd.transfer.poses import Poses
-from smd.transfer.repertoire import Repertoire, repertoire
-from smd.transfer.slope import slope
+from smd.transfer.repertoire import Piece, Repertoire, repertoire
 from smd.transfer.stage import Stage, stage_for
-from smd.transfer.terrain import Terrain
 from smd.transfer.timeline import timeline
 
 RATE_HZ = 24.0
@@ -42,14 +35,11 @@ RATE_HZ = 24.0
 BEYOND_S = 0.05
 """How far a phrase may reach beyond its device's samples: hand-written times are rounded."""
 
-TURNING_S = 0.1
-"""Smoothing of a performer's heading, so that it turns into and out of a phrase gently."""
-
 
 def perform(
     score: Score,
     recording: Recording,
-    library: Library | Cast,
+    library: ActionLibrary | Cast,
     *,
     rate_hz: float = RATE_HZ,
     expressiveness: float = 1.0,
@@ -78,7 +68,8 @@ def perform(
     Returns
     -------
     Performance
-        Its Score's warnings are the given one's, and what the doodles ask too much of.
+        Its warnings are the Score's, and what the doodles ask too much of; its source is the
+        Score with these warnings.
 
     Raises
     ------
@@ -106,14 +97,25 @@ def perform(
     start_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
     end_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
     # + 1e-6: a duration of whole frames may come out a hair short.
-    frames = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
-    time_s = start_s + np.arange(frames) / rate_hz
+    count = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
+    frames = Frames(start_s, rate_hz, count)
     alone = entrances(
-        score, recording, cast, time_s, expressiveness=expressiveness, heading=heading
+        score, recording, cast, frames.time_s, expressiveness=expressiveness, heading=heading
     )
     staged = kept_apart(alone, cast)
     actors = tuple(
-        act(one, cast.of(one.part.device).character, time_s, rate_hz, terrain) for one in staged
+        act(
+            one.part.device,
+            cast.of(one.part.device).character,
+            one.moves,
+            one.idling,
+            one.pieces.legs,
+            frames,
+            phrases=one.part.phrases,
+            doodles=one.doodles,
+            terrain=terrain,
+        )
+        for one in staged
     )
     asked = [line for one in staged for line in demands(one.part.device, one.moves)]
     devices = [part.device for part in score.performers]
@@ -121,12 +123,13 @@ def perform(
     asked += encounters(devices, before, after, _heights_m(devices, cast))
     # A Score may come from an earlier performance, and have its warnings already.
     warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
-    return Performance(rate_hz, start_s, actors, replace(score, warnings=warnings), terrain)
+    source = {"score": score_to_json(replace(score, warnings=warnings))}
+    return Performance(rate_hz, start_s, actors, terrain, warnings, source)
 
 
-def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library, Repertoire]:
+def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[ActionLibrary, Repertoire]:
     """Return what can be performed with each library of a cast, in this Score."""
-    phrases: dict[Library, list[Phrase]] = {}
+    phrases: dict[ActionLibrary, list[Phrase]] = {}
     for part in score.performers:
         phrases.setdefault(cast.of(part.device), []).extend(part.phrases)
     return {
@@ -135,7 +138,7 @@ def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[Library
     }
 
 
-def check_part(part: Part, recording: Recording, library: Library) -> None:
+def check_part(part: Part, recording: Recording, library: ActionLibrary) -> None:
     """Raise ScoreError unless a part's device, actions and times are there."""
     if part.device not in recording.devices:
         raise ScoreError(
@@ -170,14 +173,14 @@ class Staged:
     doodles : at stage scale.
     pieces : what it can do.
     moves : one after the other, from the first frame to the last.
-    clock_s : when its idling began.
+    idling : what it does in between.
     """
 
     part: Part
     doodles: tuple[Doodle, ...]
     pieces: Repertoire
-    moves: tuple[Move, ...]
-    clock_s: float
+    moves: tuple[Move[Piece], ...]
+    idling: Idling
 
 
 def entrances(
@@ -227,59 +230,11 @@ def enter(
     path = HEADINGS[heading](ground_path(recording.of(part.device), stage), spans, pieces)
     moves = course(spans, path, pieces, clock_s=clock_s)
     doodles = tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device))
-    return Staged(part, doodles, pieces, moves, clock_s)
-
-
-def act(
-    staged: Staged,
-    character: Character,
-    time_s: FloatArray,
-    rate_hz: float,
-    terrain: Terrain | None = None,
-) -> Actor:
-    """Act out what a performer does, at even times."""
-    pieces, moves, clock_s = staged.pieces, staged.moves, staged.clock_s
-    poses = acted_poses(moves, time_s, pieces.idle, clock_s=clock_s)
-    poses = placed(poses, moves, time_s, rate_hz)
-    body = pelvis_of(character.skeleton, pieces.legs) or 0
-    flown = list(flights(moves, height_of(staged.doodles), body))
-    rise = Rise(*raised(flown, time_s), in_air(flown, time_s))
-    ground = None
-    if terrain is not None:
-        way = poses.translation_m[:, 0, [0, 2]]
-        ground = slope(terrain, way, rise.flies, time_s, rate_hz, staged.part.device)
-    feet = [leg.foot for leg in pieces.legs]
-    stands, pivot_rad = acted_contacts(moves, time_s, pieces.idle, feet, clock_s=clock_s)
-    poses = grounded(
-        character.skeleton, poses, stands, pivot_rad, pieces.legs, rate_hz, rise, ground
-    )
-    return Actor(
-        device=staged.part.device,
-        character=character,
-        rotation_xyzw=sign_continuous(poses.rotation_xyzw),
-        translation_m=poses.translation_m,
-        doodles=staged.doodles,
-        part=staged.part,
-    )
+    idling = Idling(pieces.idle, pieces.idle.clip.rate_hz, clock_s)
+    return Staged(part, doodles, pieces, moves, idling)
 
 
 def _idling_ahead() -> Iterator[float]:
     """Return how far ahead each performer is in its idling, so that no two breathe as one."""
     golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
     return (golden * i % 1.0 for i in itertools.count())
-
-
-def placed(poses: Poses, moves: tuple[Move, ...], time_s: FloatArray, rate_hz: float) -> Poses:
-    """Put the ground root of poses where the moves have it."""
-    ends = [move.end_s for move in moves[:-1]]
-    of = np.searchsorted(ends, time_s, side="right")
-    heading = np.empty(len(time_s))
-    translation = poses.translation_m.copy()
-    for i, move in enumerate(moves):
-        rows = np.flatnonzero(of == i)
-        translation[rows[:, None], 0, [[0, 2]]] = move.root_at(time_s[rows])
-        heading[rows] = move.heading_at(time_s[rows])
-    rotation = poses.rotation_xyzw.copy()
-    heading = gaussian_smoothed(heading, TURNING_S * rate_hz)
-    rotation[:, 0] = quaternion_about([0.0, 1.0, 0.0], heading)
-    return Poses(rotation, translation)

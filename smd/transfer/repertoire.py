@@ -7,20 +7,23 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from actions_library.library import IDLE, Library
 from laban import Effort
+from smd.acting.flight import airborne
+from smd.acting.legs import Leg, feet_of, legs_of, pelvis_of, yaw_of
+from smd.acting.move import Airborne, Footwork
+from smd.acting.standing import standing
+from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.poses import Poses, sampled
+from smd.expression.body import body_of
+from smd.expression.expressive import expressive
+from smd.expression.study import Study, study_of
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
-from smd.transfer.body import body_of
-from smd.transfer.expression import expressive
 from smd.transfer.gait import Gait, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
-from smd.transfer.legs import Leg, feet_of, legs_of, yaw_of
 from smd.transfer.pacing import near_share
-from smd.transfer.standing import standing
-from smd.transfer.study import Study, study_of
 
 SAME_POSE = 0.999
 """Cosine of half the angle up to which all joints of two poses are turned alike: 5 degrees."""
@@ -35,41 +38,45 @@ class Piece:
     clip : neutral. Its expression by Effort would be a clip of the same kind in its place.
     travels : moves along the doodle's path.
     root : how its ground root goes.
-    stands : (n,) when each foot stands, by the foot's joint.
-    yaw_rad : (n,) which way each foot points in the clip's own world, without jumps.
+    stands : (n, legs) when each of the character's feet stands.
+    yaw_rad : (n, legs) which way each points in the clip's own world, without jumps.
+    touching : joints of the feet that touch the ground in it.
     gait : what it does per cycle, if it steps along the path.
     near : share of its transition after which its pose is near to its last one.
+    airborne : the part of it that flies, if it plays once and one does.
     """
 
     clip: Clip
     travels: bool
     root: GroundRoot
-    stands: Mapping[int, BoolArray]
-    yaw_rad: Mapping[int, FloatArray]
+    stands: BoolArray
+    yaw_rad: FloatArray
+    touching: tuple[int, ...]
     gait: Gait | None
     near: float
+    airborne: Airborne | None
 
     @property
     def last_frame(self) -> int:
         """Index of the clip's last frame."""
         return len(self.clip) - 1
 
-    def yaw_at(self, foot: int, frame: FloatArray) -> FloatArray:
-        """Return which way a foot points at fractional frames; cycles add up."""
-        if foot not in self.yaw_rad:
-            return np.zeros(len(frame))
-        yaw = self.yaw_rad[foot]
-        laps = np.floor(frame / self.last_frame) if self.clip.cyclic else np.zeros(len(frame))
-        within = np.interp(frame - laps * self.last_frame, np.arange(len(yaw)), yaw)
-        return np.asarray(within + laps * (yaw[-1] - yaw[0]))
+    def sampled(self, frame: FloatArray) -> Poses:
+        """Return local poses at fractional frames ``(n,)``, the ground root at its origin."""
+        return sampled(self.clip, frame)
 
-    def stands_at(self, foot: int, frame: FloatArray) -> BoolArray:
-        """Return whether a foot stands at the frames nearest to fractional ones."""
-        if foot not in self.stands:
-            return np.zeros(len(frame), dtype=bool)
-        within = np.mod(frame, self.last_frame) if self.clip.cyclic else frame
-        nearest = np.clip(np.round(within), 0, self.last_frame).astype(np.int64)
-        return self.stands[foot][nearest]
+    def stands_at(self, frame: FloatArray) -> Footwork:
+        """Return what feet do at fractional frames ``(n,)``: whether they stand at the nearest."""
+        last = self.last_frame
+        laps = np.floor(frame / last) if self.clip.cyclic else np.zeros(len(frame))
+        nearest = np.mod(frame, last) if self.clip.cyclic else frame
+        nearest = np.clip(np.round(nearest), 0, last).astype(np.int64)
+        frames = np.arange(len(self.clip))
+        yaw = [
+            np.interp(frame - laps * last, frames, yaw) + laps * (yaw[-1] - yaw[0])
+            for yaw in self.yaw_rad.T
+        ]
+        return Footwork(self.stands[nearest], np.reshape(yaw, (-1, len(frame))).T)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +133,9 @@ def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
     return " ".join([action, *(f"{axis} {value:+.1f}" for axis, value in shown.items() if value)])
 
 
-def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: float) -> Repertoire:
+def repertoire(
+    library: ActionLibrary, phrases: Iterable[Phrase], *, expressiveness: float
+) -> Repertoire:
     """Study the clips of some phrases, as they are played, and of idling."""
     phrases = list(phrases)
     actions = {phrase.action for phrase in phrases}
@@ -153,7 +162,7 @@ def repertoire(library: Library, phrases: Iterable[Phrase], *, expressiveness: f
     return Repertoire(pieces, legs, rests, leaving, expressiveness)
 
 
-def _leaving(library: Library, rests: set[str]) -> dict[str, str]:
+def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
     """Return the action that leads out of each rest: its clip begins there, and ends elsewhere."""
     found = {}
     for rest in sorted(rests):
@@ -176,13 +185,36 @@ def piece_of(
     neutral
         What the clip is an expression of: the same feet touch in both.
     """
-    stands = standing(clip, legs, None if neutral is None else tuple(neutral.stands))
+    stands = standing(clip, legs, None if neutral is None else neutral.touching)
     gait = gait_of(clip, stands) if travels and clip.cyclic else None
     local = clip.rotation_xyzw, clip.translation_m
     foot_q, _ = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
-    yaw = {leg.foot: yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)}
+    never = np.zeros(len(clip), dtype=bool)
+    columns = [stands.get(leg.foot, never) for leg in legs]
+    yaw = [yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)]
     if neutral is not None:
         near = neutral.near
     else:
         near = near_share(clip, forward_kinematics(clip.skeleton, *local)[1])
-    return Piece(clip, travels, ground_root(clip), stands, yaw, gait, near)
+    return Piece(
+        clip=clip,
+        travels=travels,
+        root=ground_root(clip),
+        stands=np.reshape(columns, (-1, len(clip))).T.astype(bool),
+        yaw_rad=np.reshape(yaw, (-1, len(clip))).T,
+        touching=tuple(stands),
+        gait=gait,
+        near=near,
+        airborne=_airborne(clip, stands, legs),
+    )
+
+
+def _airborne(clip: Clip, stands: Mapping[int, BoolArray], legs: Sequence[Leg]) -> Airborne | None:
+    """Return the flight of a clip that plays once, if it has one."""
+    if clip.cyclic or len(clip) < 3:
+        return None
+    body = pelvis_of(clip.skeleton, legs) or 0
+    local = clip.rotation_xyzw, clip.translation_m
+    _, place_m = joints_in_world(clip.skeleton, [body], *local)
+    touches = np.any([clip.contacts.any(axis=1), *stands.values()], axis=0)
+    return airborne(place_m[:, 0, 1], touches)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from smd.acting.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
 from smd.geometry.arrays import FloatArray
-from smd.transfer.easing import eased_clock, gaussian_smoothed, smootherstep
+from smd.geometry.easing import eased_clock, gaussian_smoothed, smootherstep
 from smd.transfer.ground_root import executed
-from smd.transfer.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
 from smd.transfer.pacing import paced
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
@@ -40,7 +40,7 @@ def along_path(
     phase: float | None = None,
     from_gait: bool = False,
     into_gait: bool = False,
-) -> Move:
+) -> Move[Piece]:
     """Go along the path with a cyclic clip.
 
     What steps goes by the distance travelled, what never touches the ground by time.
@@ -98,7 +98,7 @@ def leap(
     at: Placement,
     *,
     pause_s: float = 0.0,
-) -> Move:
+) -> Move[Piece]:
     """Go along the path with a clip that travels once, such as a jump.
 
     The ground root follows the path, re-timed so that it moves during the clip's execution alone
@@ -132,6 +132,7 @@ def leap(
         heading_rad=nearest_turn(float(first), at.heading_rad) + share * (last - first),
         frame=frame,
         presence=np.ones(len(time_s)),
+        airborne=piece.airborne,
     )
 
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from smd.transfer.performance import Performance
+from smd.acting.performance import Performance
 from tests.naive.puppet import performance as _performance
 
 

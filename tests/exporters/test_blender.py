@@ -55,9 +55,11 @@ def expect_bones(path: Path, performance) -> None:
     frames = np.linspace(0, len(performance) - 1, 10).astype(int)
     for actor in performance.actors:
         _, ours_m = forward_kinematics(
-            actor.character.skeleton, actor.rotation_xyzw[frames], actor.translation_m[frames]
+            actor.character.skeleton,
+            actor.poses.rotation_xyzw[frames],
+            actor.poses.translation_m[frames],
         )
-        armature = armatures[actor.device]
+        armature = armatures[actor.name]
         for frame, positions_m in zip(frames, ours_m, strict=True):
             scene.frame_set(int(frame))
             bones = armature.pose.bones

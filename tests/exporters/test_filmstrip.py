@@ -90,12 +90,13 @@ def test_what_is_read_back_stands_where_it_was_put(usd, performance):
     scene = read_scene(usd)
     assert [figure.name for figure in scene.figures] == ["left hand", "right-hand"]
     assert (scene.first_s, scene.last_s) == (10.0, 12.0)
-    assert scene.score == performance.score
+    for figure, actor in zip(scene.figures, performance.actors, strict=True):
+        assert figure.phrases == actor.phrases
     for figure, actor in zip(scene.figures, performance.actors, strict=True):
         skeleton = actor.character.skeleton
         for frame in (0, 11, 48):
             pose = forward_kinematics(
-                skeleton, actor.rotation_xyzw[frame], actor.translation_m[frame]
+                skeleton, actor.poses.rotation_xyzw[frame], actor.poses.translation_m[frame]
             )
             code = scene.time_code(10.0 + frame / 24.0)
             ours = skin_points(actor.character.meshes[0], skeleton, *pose)
@@ -121,7 +122,7 @@ def test_a_stage_in_centimetres_with_z_up_is_read_in_metres_with_y_up(usd, tmp_p
 def test_real_characters_are_read(shared_data):
     scene = read_scene(shared_data / "clips" / "usd" / "CesiumMan.usdz")
     (figure,) = scene.figures
-    assert scene.score is None
+    assert figure.phrases == ()
     height_m = np.ptp(figure.points_m(scene.start_code)[:, 1])
     assert 1.2 < height_m < 2.0
     rows = list(strip._rows(scene, 12))
@@ -130,9 +131,8 @@ def test_real_characters_are_read(shared_data):
 
 
 def test_windows_cover_all_the_time_in_as_many_rows_as_there_may_be(performance, tmp_path):
-    actors = tuple(replace(a, part=replace(a.part, phrases=())) for a in performance.actors)
-    score = replace(performance.score, performers=tuple(actor.part for actor in actors))
-    write_usd(replace(performance, actors=actors, score=score), tmp_path / "a.usdc")
+    actors = tuple(replace(actor, phrases=()) for actor in performance.actors)
+    write_usd(replace(performance, actors=actors), tmp_path / "a.usdc")
     scene = read_scene(tmp_path / "a.usdc")
     for most in (1, 2, 3, 12):
         rows = list(strip._rows(scene, most))

@@ -8,23 +8,15 @@ from exporters.palette import (
     performer_colors,
     srgb_from_linear,
 )
-from smd.score import Part, Phrase, Score
 from tests.naive.puppet import puppet
 
 
-def score_of(*actions: str) -> Score:
-    phrases = tuple(Phrase(action, i, i + 1.0) for i, action in enumerate(actions))
-    return Score((Part("a", phrases),))
-
-
 def test_an_action_has_the_same_colour_whenever_it_is_played():
-    assert action_colors(score_of("walk", "run", "bow")) == action_colors(
-        score_of("bow", "walk", "run", "walk")
-    )
+    assert action_colors(["walk", "run", "bow"]) == action_colors(["bow", "walk", "run", "walk"])
 
 
 def test_ten_actions_have_ten_colours():
-    colors = action_colors(score_of(*"abcdefghij"))
+    colors = action_colors("abcdefghij")
     assert len(set(colors.values())) == 10
     assert np.all((np.array(list(colors.values())) >= 0) & (np.array(list(colors.values())) <= 1))
 

@@ -13,6 +13,9 @@ from smd.doodle import Doodle, Dropout, Recording
 from smd.errors import ExportError
 from smd.recognition.tokens import Token, TokenRun
 from smd.score import Alternative, Part, Score, Suggestion
+from smd.score_file import score_from_json
+
+ACTIONS = ("walk", "punch")
 
 
 @pytest.fixture(scope="module")
@@ -23,9 +26,14 @@ def recording(performance) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def picture(recording, performance, tmp_path_factory) -> np.ndarray:
+def score(performance) -> Score:
+    return score_from_json(performance.source["score"])
+
+
+@pytest.fixture(scope="module")
+def picture(recording, score, tmp_path_factory) -> np.ndarray:
     path = tmp_path_factory.mktemp("timeline") / "t.png"
-    write_timeline(recording, performance.score, path)
+    write_timeline(recording, score, path)
     return np.asarray(Image.open(path).convert("RGB")).astype(int)
 
 
@@ -35,9 +43,9 @@ def seconds(column: float, picture: np.ndarray) -> float:
     return 10.0 + 2.0 * (column - left) / (picture.shape[1] - left - right)
 
 
-def test_a_phrase_stands_over_its_time_in_its_colour(picture, performance):
+def test_a_phrase_stands_over_its_time_in_its_colour(picture):
     for action, (start_s, end_s) in {"walk": (10.2, 10.9), "punch": (11.2, 11.8)}.items():
-        rgb = np.round(255 * np.array(action_colors(performance.score)[action]))
+        rgb = np.round(255 * np.array(action_colors(ACTIONS)[action]))
         rows, columns = np.nonzero(np.abs(picture - rgb).max(axis=-1) <= 1)
         # Of the two devices, the first's lanes have no dropout over them.
         columns = columns[rows < picture.shape[0] / 2]
@@ -45,12 +53,12 @@ def test_a_phrase_stands_over_its_time_in_its_colour(picture, performance):
         assert seconds(columns.max() + 1, picture) == pytest.approx(end_s, abs=0.01)
 
 
-def test_what_is_suggested_is_an_outline_over_its_time(recording, performance, picture, tmp_path):
+def test_what_is_suggested_is_an_outline_over_its_time(recording, score, picture, tmp_path):
     walk = Alternative("walk", 12.0, 10.0, "too slow")
-    first, *others = performance.score.performers
+    first, *others = score.performers
     suggesting = replace(first, suggestions=(Suggestion(11.3, 11.7, (walk,)),), phrases=())
-    score = replace(performance.score, performers=(suggesting, *others))
-    write_timeline(recording, score, tmp_path / "t.png")
+    suggests = replace(score, performers=(suggesting, *others))
+    write_timeline(recording, suggests, tmp_path / "t.png")
     drawn = np.asarray(Image.open(tmp_path / "t.png").convert("RGB")).astype(int)
     rgb = np.round(255 * np.array(IDLE_RGB))
     upper = slice(0, picture.shape[0] // 2)
@@ -62,8 +70,8 @@ def test_what_is_suggested_is_an_outline_over_its_time(recording, performance, p
     assert (inside.min(axis=-1) >= 250).mean() > 0.5  # paper, but for the name
 
 
-def test_an_implied_phrase_is_paler(performance):
-    (walk, *_), colors = performance.score.performers[0].phrases, action_colors(performance.score)
+def test_an_implied_phrase_is_paler(score):
+    (walk, *_), colors = score.performers[0].phrases, action_colors(ACTIONS)
     implied = Part("a", (replace(walk, implied=True),))
     (meant,) = timeline._phrase_blocks(Part("a", (walk,)), colors)
     (block,) = timeline._phrase_blocks(implied, colors)
@@ -74,10 +82,8 @@ def test_an_implied_phrase_is_paler(performance):
     assert above.half == "upper"
 
 
-def test_a_dropout_is_marked_over_its_time_in_its_device_alone(
-    recording, performance, picture, tmp_path
-):
-    write_timeline(replace(recording, dropouts=()), performance.score, tmp_path / "t.png")
+def test_a_dropout_is_marked_over_its_time_in_its_device_alone(recording, score, picture, tmp_path):
+    write_timeline(replace(recording, dropouts=()), score, tmp_path / "t.png")
     without = np.asarray(Image.open(tmp_path / "t.png").convert("RGB")).astype(int)
     rows, columns = np.nonzero((picture != without).any(axis=-1))
     assert rows.min() > 0.5 * picture.shape[0]
@@ -85,9 +91,9 @@ def test_a_dropout_is_marked_over_its_time_in_its_device_alone(
     assert seconds(columns.max() + 1, picture) == pytest.approx(11.2, abs=0.01)
 
 
-def test_the_same_input_gives_the_same_bytes(recording, performance, tmp_path):
+def test_the_same_input_gives_the_same_bytes(recording, score, tmp_path):
     for name in ("a.png", "b.png"):
-        write_timeline(recording, performance.score, tmp_path / name)
+        write_timeline(recording, score, tmp_path / name)
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
@@ -121,14 +127,14 @@ def test_an_hour_is_not_wider_than_a_picture_may_be(tmp_path):
     assert figure.get_figwidth() * timeline.DPI < 2**16 / 2
 
 
-def test_a_missing_folder_is_named(recording, performance, tmp_path):
+def test_a_missing_folder_is_named(recording, score, tmp_path):
     with pytest.raises(ExportError, match="nowhere"):
-        write_timeline(recording, performance.score, tmp_path / "nowhere" / "t.png")
+        write_timeline(recording, score, tmp_path / "nowhere" / "t.png")
 
 
-def test_devices_that_the_score_leaves_out_are_left_out(recording, performance, tmp_path):
-    one = replace(performance.score, performers=performance.score.performers[:1])
+def test_devices_that_the_score_leaves_out_are_left_out(recording, score, tmp_path):
+    one = replace(score, performers=score.performers[:1])
     write_timeline(recording, one, tmp_path / "one.png")
-    write_timeline(recording, performance.score, tmp_path / "two.png")
+    write_timeline(recording, score, tmp_path / "two.png")
     with Image.open(tmp_path / "one.png") as a, Image.open(tmp_path / "two.png") as b:
         assert a.height < 0.65 * b.height

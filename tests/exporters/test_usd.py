@@ -13,6 +13,7 @@ from pxr import Sdf, Usd, UsdGeom, UsdSkel, UsdValidation
 import exporters
 from exporters.usd import write_usd
 from smd.character.kinematics import forward_kinematics
+from smd.character.poses import Poses
 from smd.character.skinning import skin_points
 from smd.errors import ExportError
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
@@ -64,7 +65,8 @@ def test_stage_says_its_axes_unit_and_times(written, performance):
 
 def test_the_score_travels_along(written, performance):
     data = Sdf.Layer.FindOrOpen(str(written)).customLayerData
-    assert score_from_json(data["smd:score"]) == performance.score
+    assert data["smd:score"] == performance.source["score"]
+    assert score_from_json(data["smd:score"]).recording == "made up"
     assert data["smd:start_s"] == performance.start_s
 
 
@@ -84,7 +86,9 @@ def test_the_same_input_gives_the_same_bytes_in_another_process_too(written, tmp
 def test_usd_skins_each_actor_as_we_do(stage, performance, frame):
     for name, actor in zip(("left_hand", "right_hand"), performance.actors, strict=True):
         skeleton = actor.character.skeleton
-        pose = forward_kinematics(skeleton, actor.rotation_xyzw[frame], actor.translation_m[frame])
+        pose = forward_kinematics(
+            skeleton, actor.poses.rotation_xyzw[frame], actor.poses.translation_m[frame]
+        )
         ours = skin_points(actor.character.meshes[0], skeleton, *pose)
         theirs = skinned(stage, f"/Performance/Actors/{name}", frame)
         np.testing.assert_allclose(theirs, ours, atol=2e-5)  # metres, in single precision
@@ -182,18 +186,7 @@ def test_a_package_holds_one_aligned_uncompressed_layer(performance, tmp_path):
 
 def test_devices_of_any_name_get_prims_of_their_own(performance, tmp_path):
     first, second = performance.actors
-    score = replace(
-        performance.score,
-        performers=(
-            replace(performance.score.performers[0], device="手 1"),
-            replace(performance.score.performers[1], device="手-1"),
-        ),
-    )
-    odd = replace(
-        performance,
-        actors=(replace(first, device="手 1"), replace(second, device="手-1")),
-        score=score,
-    )
+    odd = replace(performance, actors=(replace(first, name="手 1"), replace(second, name="手-1")))
     write_usd(odd, tmp_path / "a.usda")
     stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
     roots = stage.GetPrimAtPath("/Performance/Actors").GetChildren()
@@ -205,8 +198,7 @@ def test_a_single_frame_and_sample_is_a_stage_too(performance, tmp_path):
     doodle = actor.doodles[0]
     short = replace(
         actor,
-        rotation_xyzw=actor.rotation_xyzw[:1],
-        translation_m=actor.translation_m[:1],
+        poses=Poses(actor.poses.rotation_xyzw[:1], actor.poses.translation_m[:1]),
         doodles=(
             replace(
                 doodle,

@@ -21,8 +21,12 @@ ACTOR = "/Performance/Actors/left_hand"
 @pytest.fixture(scope="module")
 def neutral(performance):
     """The same, with arms at rest."""
+
+    def still(actor):
+        return np.repeat(actor.poses.rotation_xyzw[:1], len(performance), axis=0)
+
     actors = tuple(
-        replace(actor, rotation_xyzw=np.repeat(actor.rotation_xyzw[:1], len(performance), axis=0))
+        replace(actor, poses=actor.poses._replace(rotation_xyzw=still(actor)))
         for actor in performance.actors
     )
     return replace(performance, actors=actors)
@@ -197,15 +201,10 @@ def test_a_layer_that_cannot_be_written_leaves_everything_as_it_was(performance,
 
 @pytest.mark.parametrize("devices", [("手 1", "手-1"), ("Left", "left")])
 def test_devices_of_like_names_get_layers_of_their_own(performance, tmp_path, devices):
-    parts = tuple(
-        replace(part, device=device)
-        for part, device in zip(performance.score.performers, devices, strict=True)
-    )
     actors = tuple(
-        replace(actor, device=device, part=part)
-        for actor, device, part in zip(performance.actors, devices, parts, strict=True)
+        replace(actor, name=name) for actor, name in zip(performance.actors, devices, strict=True)
     )
-    odd = replace(performance, actors=actors, score=replace(performance.score, performers=parts))
+    odd = replace(performance, actors=actors)
     write_usd_layers(odd, tmp_path / "ein Stück [1] @.usda")
     assert len({path.name.lower() for path in tmp_path.iterdir()}) == 3
     stage = Usd.Stage.Open(str(tmp_path / "ein Stück [1] @.usda"))

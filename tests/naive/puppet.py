@@ -6,12 +6,14 @@ import numpy as np
 
 from actions_library.authoring.humanoid import humanoid_skeleton
 from laban import Effort
+from smd.acting.performance import Actor, Performance
 from smd.character.character import Character, Mesh
 from smd.character.clip import Clip
+from smd.character.poses import Poses
 from smd.doodle import Doodle
 from smd.geometry.rotations import quaternion_about
 from smd.score import Part, Phrase, Score
-from smd.transfer.performance import Actor, Performance
+from smd.score_file import score_to_json
 
 SIDES = 6
 
@@ -98,8 +100,9 @@ def performance(seconds: float, rate_hz: float) -> Performance:
         parts.append(Part(device, phrases))
         doodle = loop(seconds, centre=(1.5 * index, 1.0, 0.0), device=device)
         doodles = (doodle,) if index == 0 else split(doodle, 10.0 + 0.5 * seconds, 0.2 * seconds)
-        actors.append(Actor(device, character, rotation, moved, doodles, parts[-1]))
-    return Performance(rate_hz, 10.0, tuple(actors), Score(tuple(parts), recording="made up"))
+        actors.append(Actor(device, character, Poses(rotation, moved), phrases, doodles))
+    score = Score(tuple(parts), recording="made up")
+    return Performance(rate_hz, 10.0, tuple(actors), source={"score": score_to_json(score)})
 
 
 def loop(seconds: float, centre: tuple[float, float, float], device: str) -> Doodle:

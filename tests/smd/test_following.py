@@ -102,7 +102,7 @@ def test_a_score_that_follows_is_acted_out_and_the_character_gets_about(library,
     ways = []
     for score in (left, follows):
         (actor,) = smd.animate(score, recording, library).actors
-        root = actor.translation_m[:, 0]
+        root = actor.poses.translation_m[:, 0]
         ways.append(float(np.linalg.norm(root[-1] - root[0])))
     assert ways[0] == pytest.approx(0.0, abs=0.1)
     assert ways[1] == pytest.approx(0.75 * 6.0 * library.character.height_m, rel=0.05)

@@ -14,6 +14,7 @@ from smd.errors import ScoreError
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition.reasons import FITS
+from smd.score_file import score_from_json, score_to_json
 
 RECORDINGS = Path(__file__).parents[2] / "recordings"
 STORIES = sorted(path.stem for path in RECORDINGS.glob("*.csv"))
@@ -116,7 +117,8 @@ def test_what_is_not_recognised_is_suggested_outside_of_phrases():
         assert one.action == phrase.action
         best = one.likeliest[0]
         assert best.distance > best.most or best.reason == FITS  # weighed by itself
-    assert smd.animate(few, recording, library).score.suggestions == few.suggestions
+    source = score_from_json(smd.animate(few, recording, library).source["score"])
+    assert source.suggestions == score_from_json(score_to_json(few)).suggestions
 
 
 def test_a_library_without_examples_is_said_to_be_one():

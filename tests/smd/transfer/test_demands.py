@@ -21,7 +21,7 @@ def taken(library, speed_m_s, action="walk", phrases=1, warnings=()):
     doodle = Doodle(time_s, place, np.tile([0.0, 0.0, 0.0, 1.0], (len(way), 1)), "fox")
     spoken = tuple(Phrase(action, 1.0 + 4.0 * i, 4.0 + 4.0 * i) for i in range(phrases))
     score = Score((Part("fox", spoken),), warnings=warnings)
-    return animate(score, Recording((doodle,)), library).score.warnings
+    return animate(score, Recording((doodle,)), library).warnings
 
 
 @pytest.mark.parametrize(("action", "speed"), [("walk", 1.3), ("walk", 0.5), ("run", 4.0)])
@@ -60,7 +60,7 @@ def test_a_phrase_too_short_for_its_clip_is_warned_of(library):
 
     def said(pace: float) -> tuple[str, ...]:
         score = Score((Part("fox", (Phrase("bow", 1.0, 1.0 + length_s / pace),)),))
-        return animate(score, Recording((doodle,)), library).score.warnings
+        return animate(score, Recording((doodle,)), library).warnings
 
     assert said(2.8) == ()
     (line,) = said(4.0)

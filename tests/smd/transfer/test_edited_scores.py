@@ -10,10 +10,10 @@ import pytest
 
 import smd
 from laban import Effort
+from smd.acting.performance import Performance
 from smd.formats import read_recording
 from smd.score import Part, Phrase
 from smd.score_file import read_score
-from smd.transfer.performance import Performance
 
 STORIES = Path(__file__).parents[3] / "recordings"
 LIBRARY = smd.load_library()
@@ -63,7 +63,7 @@ def edited(index: int, edit: str) -> Part:
 
 def turned_deg(one: Performance, other: Performance) -> np.ndarray:
     """Return how far the knight's joints are turned apart, ``(n, j)``, but for the ground root."""
-    a, b = (performance.actors[0].rotation_xyzw for performance in (one, other))
+    a, b = (performance.actors[0].poses.rotation_xyzw for performance in (one, other))
     dots = np.minimum(np.abs(np.sum(a * b, axis=-1)), 1.0)
     apart = np.degrees(2.0 * np.arccos(dots))
     apart[:, 0] = 0.0
@@ -89,8 +89,8 @@ def test_what_was_not_edited_stays(index, edit):
     assert apart[elsewhere].max() < 4.0
     # The others do not care, and the way goes on as it went from where it has come to.
     for one, other in zip(BEFORE.actors[1:], after.actors[1:], strict=True):
-        np.testing.assert_array_equal(one.rotation_xyzw, other.rotation_xyzw)
-        np.testing.assert_array_equal(one.translation_m, other.translation_m)
+        np.testing.assert_array_equal(one.poses.rotation_xyzw, other.poses.rotation_xyzw)
+        np.testing.assert_array_equal(one.poses.translation_m, other.poses.translation_m)
     for rows in (time_s <= begins_s, time_s >= ends_s):
-        ways = [np.diff(p.actors[0].translation_m[rows, 0], axis=0) for p in (BEFORE, after)]
+        ways = [np.diff(p.actors[0].poses.translation_m[rows, 0], axis=0) for p in (BEFORE, after)]
         np.testing.assert_allclose(*ways, atol=1e-3)

@@ -103,7 +103,7 @@ def test_animate_faces_by_the_prop_or_by_the_path(library, heading, expected):
     score = Score((Part("fox", (Phrase("walk", 1.0, 6.0),)),))
     (actor,) = animate(score, recording, library, heading=heading).actors
     rows = slice(2 * 24, 5 * 24)
-    assert apart_rad(heading_rad(actor.rotation_xyzw[rows, 0]), expected).max() < 0.02
+    assert apart_rad(heading_rad(actor.poses.rotation_xyzw[rows, 0]), expected).max() < 0.02
 
 
 def test_a_heading_that_is_none_is_refused(library):

@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from smd.acting.legs import feet_of, legs_of
+from smd.acting.standing import standing
 from smd.transfer.gait import Gait, Passing, gait_of, phase_after
-from smd.transfer.legs import feet_of, legs_of
-from smd.transfer.standing import standing
 
 WALK = Gait(1.4, 1.0, (Passing(0.3, 3), Passing(0.8, 7)))
 GALLOP = Gait(2.0, 0.5, (Passing(0.1, 3), Passing(0.3, 7)))
@@ -21,7 +21,7 @@ def test_feet_pass_where_one_is_half_through_the_air(make_piece):
         left_stands=(0.0, 0.6),
         right_stands=(0.5, 0.99),
     )
-    left, right = piece.stands
+    left, right = piece.touching
     (first, second) = piece.gait.passings
     assert (first.foot, second.foot) == (right, left)
     assert first.phase == pytest.approx(0.245, abs=0.011)

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from smd.acting.move import Placement
 from smd.transfer.in_place import facing, gesture, idling, turn, turn_passes, turns
-from smd.transfer.move import Placement
 
 AT = Placement(np.array([3.0, -2.0]), 0.5)
 

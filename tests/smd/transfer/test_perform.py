@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from smd.acting.legs import legs_of
 from smd.character.kinematics import forward_kinematics
 from smd.doodle import Doodle, Recording
 from smd.errors import ScoreError, TransferError
@@ -17,7 +18,6 @@ from smd.geometry.rotations import (
 )
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
-from smd.transfer.legs import legs_of
 
 UP = [0.0, 1.0, 0.0]
 
@@ -83,7 +83,7 @@ def performance(take, library):
 
 def world_of_frames(performance, actor=0):
     actor = performance.actors[actor]
-    return forward_kinematics(actor.character.skeleton, actor.rotation_xyzw, actor.translation_m)
+    return forward_kinematics(actor.character.skeleton, *actor.poses)
 
 
 def frame_at(performance, time_s):
@@ -92,7 +92,7 @@ def frame_at(performance, time_s):
 
 def steps_rad(performance):
     """How far each joint turns from frame to frame."""
-    q = performance.actors[0].rotation_xyzw
+    q = performance.actors[0].poses.rotation_xyzw
     return np.linalg.norm(rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:])), axis=-1)
 
 
@@ -111,8 +111,8 @@ def test_by_default_there_are_24_frames_a_second(take, library):
 
 def test_poses_are_finite_unit_and_sign_continuous(performance):
     (actor,) = performance.actors
-    q = actor.rotation_xyzw
-    assert np.isfinite(actor.translation_m).all()
+    q = actor.poses.rotation_xyzw
+    assert np.isfinite(actor.poses.translation_m).all()
     assert np.linalg.norm(q, axis=-1) == pytest.approx(np.ones(q.shape[:2]), abs=1e-9)
     assert (np.sum(q[1:] * q[:-1], axis=-1) > 0.0).all()
 
@@ -153,7 +153,7 @@ def test_nothing_pops_where_one_phrase_becomes_another(performance, take, librar
 def test_the_character_stands_on_the_doodle_s_path_while_it_travels(performance, take):
     (actor,) = performance.actors
     doodle = actor.doodles[0]
-    root = actor.translation_m[:, 0]
+    root = actor.poses.translation_m[:, 0]
     for phrase in take[1].performers[0].phrases:
         if phrase.action not in {"walk", "run", "side_step_right", "fly"}:
             continue
@@ -168,7 +168,7 @@ def test_the_character_stands_on_the_doodle_s_path_while_it_travels(performance,
 
 
 def test_between_travelling_phrases_the_ground_root_stays(performance, take):
-    root = performance.actors[0].translation_m[:, 0, [0, 2]]
+    root = performance.actors[0].poses.translation_m[:, 0, [0, 2]]
     phrases = take[1].performers[0].phrases
     for phrase in phrases:
         if phrase.action in {"punch", "throw", "bow", "turn_left"}:
@@ -190,10 +190,13 @@ def test_turning_the_world_turns_the_performance(take, library, performance):
     )
     other = animate(take[1], Recording((turned,)), library, rate_hz=60.0)
     a, b = performance.actors[0], other.actors[0]
-    assert b.translation_m[:, 0] == pytest.approx(
-        rotate(np.broadcast_to(turn, (len(performance), 4)), a.translation_m[:, 0]), abs=1e-6
+    assert b.poses.translation_m[:, 0] == pytest.approx(
+        rotate(np.broadcast_to(turn, (len(performance), 4)), a.poses.translation_m[:, 0]), abs=1e-6
     )
-    assert np.abs(np.abs(b.rotation_xyzw[:, 1:]) - np.abs(a.rotation_xyzw[:, 1:])).max() < 1e-5
+    assert (
+        np.abs(np.abs(b.poses.rotation_xyzw[:, 1:]) - np.abs(a.poses.rotation_xyzw[:, 1:])).max()
+        < 1e-5
+    )
 
 
 def test_a_larger_prop_on_a_larger_table_acts_the_same(take, library, performance):
@@ -202,8 +205,8 @@ def test_a_larger_prop_on_a_larger_table_acts_the_same(take, library, performanc
     score = replace(take[1], figure_height_m=2.0 * take[1].figure_height_m)
     other = animate(score, Recording((larger,)), library, rate_hz=60.0)
     a, b = performance.actors[0], other.actors[0]
-    assert b.translation_m == pytest.approx(a.translation_m, abs=1e-6)
-    assert b.rotation_xyzw == pytest.approx(a.rotation_xyzw, abs=1e-6)
+    assert b.poses.translation_m == pytest.approx(a.poses.translation_m, abs=1e-6)
+    assert b.poses.rotation_xyzw == pytest.approx(a.poses.rotation_xyzw, abs=1e-6)
 
 
 def test_the_stage_is_ten_times_the_table(take, library, performance):
@@ -222,10 +225,10 @@ def test_performers_keep_their_places_and_do_not_disturb_each_other(take, librar
     )
     first, second = both.actors
     scale = library.character.height_m / 0.175
-    apart = second.translation_m[0, 0] - first.translation_m[0, 0]
+    apart = second.poses.translation_m[0, 0] - first.poses.translation_m[0, 0]
     assert apart == pytest.approx(scale * np.array([0.5, 0.0, 0.2]), abs=1e-6)
-    alone = performance.actors[0].translation_m[:, 0]
-    went = first.translation_m[:, 0] - first.translation_m[0, 0]
+    alone = performance.actors[0].poses.translation_m[:, 0]
+    went = first.poses.translation_m[:, 0] - first.poses.translation_m[0, 0]
     assert went == pytest.approx(alone - alone[0], abs=1e-6)
 
 
@@ -233,14 +236,14 @@ def test_two_performers_do_not_idle_as_one(library):
     fox, wolf = story("fox")[0], story("wolf")[0]
     score = Score((Part("fox"), Part("wolf")))
     first, second = animate(score, Recording((fox, wolf)), library).actors
-    assert np.abs(first.rotation_xyzw - second.rotation_xyzw).max() > 0.005
+    assert np.abs(first.poses.rotation_xyzw - second.poses.rotation_xyzw).max() > 0.005
 
 
 def test_whom_nothing_was_recognised_of_idles_on_the_spot(take, library):
     performance = animate(Score((Part("fox"),)), take[0], library)
     (actor,) = performance.actors
-    assert np.ptp(actor.translation_m[:, 0], axis=0) == pytest.approx(np.zeros(3))
-    assert actor.rotation_xyzw[0] != pytest.approx(actor.rotation_xyzw[40])
+    assert np.ptp(actor.poses.translation_m[:, 0], axis=0) == pytest.approx(np.zeros(3))
+    assert actor.poses.rotation_xyzw[0] != pytest.approx(actor.poses.rotation_xyzw[40])
 
 
 def test_changing_one_phrase_leaves_what_went_before_as_it_was(take, library, performance):
@@ -251,8 +254,8 @@ def test_changing_one_phrase_leaves_what_went_before_as_it_was(take, library, pe
     other = animate(score, take[0], library, rate_hz=60.0)
     until = frame_at(performance, phrases[index].start_s - 1.0)
     a, b = performance.actors[0], other.actors[0]
-    assert b.rotation_xyzw[:until] == pytest.approx(a.rotation_xyzw[:until], abs=1e-9)
-    assert b.translation_m[:until] == pytest.approx(a.translation_m[:until], abs=1e-9)
+    assert b.poses.rotation_xyzw[:until] == pytest.approx(a.poses.rotation_xyzw[:until], abs=1e-9)
+    assert b.poses.translation_m[:until] == pytest.approx(a.poses.translation_m[:until], abs=1e-9)
 
 
 def test_a_doodle_split_by_lost_tracking_is_one_performance(library):
@@ -268,7 +271,7 @@ def test_a_doodle_split_by_lost_tracking_is_one_performance(library):
     performance = animate(Score((part,)), take, library)
     assert len(performance.actors) == 1
     assert len(performance.actors[0].doodles) == 2
-    assert np.isfinite(performance.actors[0].translation_m).all()
+    assert np.isfinite(performance.actors[0].poses.translation_m).all()
 
 
 def test_one_sample_is_a_performance_of_one_frame(library):

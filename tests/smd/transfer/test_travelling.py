@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from smd.transfer.move import Placement
+from smd.acting.move import Placement
 from smd.transfer.path import GroundPath
 from smd.transfer.travelling import along_path, leap
 

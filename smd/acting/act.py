@@ -1,0 +1,152 @@
+"""Acting: what a performer does becomes an actor, on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from smd.acting.flight import flights, height_of, in_air, raised
+from smd.acting.grounding import Rise, grounded, level
+from smd.acting.legs import Leg
+from smd.acting.move import Footwork, Move, Playable
+from smd.acting.moving import Idling, placed, posed, stepped
+from smd.acting.performance import Actor
+from smd.acting.slope import slope
+from smd.acting.terrain import Terrain
+from smd.character.character import Character
+from smd.character.poses import Poses
+from smd.doodle import Doodle
+from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import sign_continuous
+from smd.score import Phrase
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """When the frames of a performance are.
+
+    Attributes
+    ----------
+    start_s : of frame 0.
+    rate_hz : frames per second, positive.
+    count : at least 1.
+    """
+
+    start_s: float
+    rate_hz: float
+    count: int
+
+    @property
+    def time_s(self) -> FloatArray:
+        """Time of each frame, ``(count,)``."""
+        return self.start_s + np.arange(self.count) / self.rate_hz
+
+
+def act(
+    name: str,
+    character: Character,
+    moves: Sequence[Move[Playable]],
+    idling: Idling,
+    legs: Sequence[Leg],
+    frames: Frames,
+    *,
+    phrases: Sequence[Phrase] = (),
+    doodles: Sequence[Doodle] = (),
+    terrain: Terrain | None = None,
+) -> Actor:
+    """Act out moves, one after the other.
+
+    Parameters
+    ----------
+    name
+        Of the actor.
+    character
+        Whose skeleton it is that the moves' pieces pose.
+    moves
+        From the first of the frames to the last.
+    idling
+        What is seen as far as a move is not.
+    legs
+        Those that the pieces tell of, in their order.
+    frames
+        When it is to be posed.
+    phrases, doodles
+        What it performs, and what that was drawn with: flights go as high as the doodles do.
+    terrain
+        What it goes on; by default the level ground.
+
+    Raises
+    ------
+    TransferError
+        If there is no ground below its way, or more than one over another.
+    """
+    time_s = frames.time_s
+    flown = list(flights(moves, height_of(doodles) if doodles else None))
+    return grounded_actor(
+        name,
+        character,
+        placed(posed(moves, time_s, idling), moves, time_s, frames.rate_hz),
+        stepped(moves, time_s, idling),
+        legs,
+        start_s=frames.start_s,
+        rate_hz=frames.rate_hz,
+        rise=Rise(*raised(flown, time_s), in_air(flown, time_s)),
+        phrases=phrases,
+        doodles=doodles,
+        terrain=terrain,
+    )
+
+
+def grounded_actor(
+    name: str,
+    character: Character,
+    poses: Poses,
+    footwork: Footwork,
+    legs: Sequence[Leg],
+    *,
+    rate_hz: float,
+    start_s: float = 0.0,
+    rise: Rise | None = None,
+    phrases: Sequence[Phrase] = (),
+    doodles: Sequence[Doodle] = (),
+    terrain: Terrain | None = None,
+) -> Actor:
+    """Bring poses onto the ground: feet that should stand do, and none is in the ground.
+
+    This is where whoever has poses, and knows when feet stand, begins.
+
+    Parameters
+    ----------
+    poses
+        Of the character, a frame each, with the ground root in its place on level ground.
+    footwork
+        What the feet of ``legs`` do in each frame.
+    rate_hz, start_s
+        Frames per second, and the time of frame 0.
+    rise
+        How much higher than the poses the body and its feet go.
+
+    The others are those of `act`.
+
+    Raises
+    ------
+    TransferError
+        As in `act`.
+    """
+    count = len(poses.rotation_xyzw)
+    rise = rise or level(count)
+    ground = None
+    if terrain is not None:
+        way, time_s = poses.translation_m[:, 0, [0, 2]], Frames(start_s, rate_hz, count).time_s
+        ground = slope(terrain, way, rise.flies, time_s, rate_hz, name)
+    done = grounded(character.skeleton, poses, footwork, legs, rate_hz, rise, ground)
+    rotation = sign_continuous(done.rotation_xyzw)
+    return Actor(
+        name,
+        character,
+        Poses(rotation, done.translation_m),
+        phrases=tuple(phrases),
+        doodles=tuple(doodles),
+    )

@@ -1,0 +1,150 @@
+"""Moving: a performer's moves as poses and footwork at even times."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from smd.acting.move import Footwork, Move, Playable
+from smd.acting.transitions import carried_over, transition_s
+from smd.character.poses import Poses, mixed
+from smd.geometry.arrays import FloatArray
+from smd.geometry.easing import gaussian_smoothed
+from smd.geometry.rotations import quaternion_about
+
+SEEN = 0.1
+"""Presence from which a clip says which feet stand: a foot that swings there must be free early,
+or what is left of its swing is too short for the way."""
+
+TURNING_S = 0.1
+"""Smoothing of a performer's heading, so that it turns into and out of a phrase gently."""
+
+_STEP_S = 1e-3
+"""Time over which the velocities on both sides of a boundary are taken."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Idling:
+    """What is seen as far as moves are not.
+
+    Attributes
+    ----------
+    piece : what is played, over and over.
+    rate_hz : its frames a second.
+    began_s : time of its frame 0.
+    """
+
+    piece: Playable
+    rate_hz: float
+    began_s: float
+
+    def frame_at(self, time_s: FloatArray) -> FloatArray:
+        """Return its fractional frame at some times."""
+        return (time_s - self.began_s) * self.rate_hz
+
+
+def posed(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Poses:
+    """Return local poses at each time, with transitions, the ground root left at its origin.
+
+    Parameters
+    ----------
+    moves
+        One after the other; each acts from where the one before it ends.
+    time_s
+        ``(n,)`` increasing, from the first move's start to the last one's end.
+    """
+    pieces: list[Poses] = []
+    for i, (move, rows) in enumerate(zip(moves, rows_of(moves, time_s), strict=True)):
+        now_s = time_s[rows]
+        poses = own_poses(move, now_s, idling)
+        if i > 0 and len(now_s) > 0:
+            poses = _joined(moves[i - 1], move, poses, now_s, idling)
+        pieces.append(poses)
+    return Poses(
+        np.concatenate([piece.rotation_xyzw for piece in pieces]),
+        np.concatenate([piece.translation_m for piece in pieces]),
+    )
+
+
+def stepped(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Footwork:
+    """Return what feet should do at each time; the pivots of all that was seen add up."""
+    seen = []
+    for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
+        now_s = time_s[rows]
+        own, resting = (
+            move.piece.stands_at(move.frame_at(now_s)),
+            idling.piece.stands_at(idling.frame_at(now_s)),
+        )
+        presence = move.presence_at(now_s)[:, None]
+        turned_rad = np.zeros_like(own.pivot_rad)
+        turned_rad[1:] = presence[1:] * np.diff(own.pivot_rad, axis=0)
+        seen.append(Footwork(np.where(presence >= SEEN, own.stands, resting.stands), turned_rad))
+    return Footwork(
+        np.concatenate([one.stands for one in seen]),
+        np.cumsum(np.concatenate([one.pivot_rad for one in seen]), axis=0),
+    )
+
+
+def placed(
+    poses: Poses, moves: Sequence[Move[Playable]], time_s: FloatArray, rate_hz: float
+) -> Poses:
+    """Put the ground root of poses where the moves have it."""
+    ends = [move.end_s for move in moves[:-1]]
+    of = np.searchsorted(ends, time_s, side="right")
+    heading = np.empty(len(time_s))
+    translation = poses.translation_m.copy()
+    for i, move in enumerate(moves):
+        rows = np.flatnonzero(of == i)
+        translation[rows[:, None], 0, [[0, 2]]] = move.root_at(time_s[rows])
+        heading[rows] = move.heading_at(time_s[rows])
+    rotation = poses.rotation_xyzw.copy()
+    heading = gaussian_smoothed(heading, TURNING_S * rate_hz)
+    rotation[:, 0] = quaternion_about([0.0, 1.0, 0.0], heading)
+    return Poses(rotation, translation)
+
+
+def rows_of(moves: Sequence[Move[Playable]], time_s: FloatArray) -> list[slice]:
+    """Return which of the times each move acts at; the last one acts at its end too."""
+    cuts = np.searchsorted(time_s, [move.end_s for move in moves[:-1]])
+    edges = [0, *cuts.tolist(), len(time_s)]
+    return [slice(a, b) for a, b in pairwise(edges)]
+
+
+def own_poses(move: Move[Playable], time_s: FloatArray, idling: Idling) -> Poses:
+    """Return a move's poses ``(n, …)`` by itself, without the transition into it."""
+    poses = move.piece.sampled(move.frame_at(time_s))
+    presence = move.presence_at(time_s)
+    faint = np.flatnonzero(presence < 1.0)
+    if len(faint) == 0:
+        return poses
+    standing_still = idling.piece.sampled(idling.frame_at(time_s[faint]))
+    some = Poses(poses.rotation_xyzw[faint], poses.translation_m[faint])
+    some = mixed(standing_still, some, presence[faint])
+    poses.rotation_xyzw[faint], poses.translation_m[faint] = some
+    return poses
+
+
+def _joined(
+    before: Move[Playable],
+    move: Move[Playable],
+    poses: Poses,
+    now_s: FloatArray,
+    idling: Idling,
+) -> Poses:
+    """Let the difference to the move before die away over this one's first poses."""
+    at_s = before.end_s
+    ends = (
+        own_poses(before, at_s + np.array([-_STEP_S, 0.0]), idling),
+        own_poses(move, at_s + np.array([0.0, _STEP_S]), idling),
+    )
+    over_s = min(transition_s(*ends), move.start_s - at_s + move.room_s)
+    count = int(np.searchsorted(now_s, at_s + over_s))
+    if count == 0:
+        return poses
+    first = Poses(poses.rotation_xyzw[:count], poses.translation_m[:count])
+    first = carried_over(*ends, first, now_s[:count] - at_s, over_s=over_s, step_s=_STEP_S)
+    poses.rotation_xyzw[:count], poses.translation_m[:count] = first
+    return poses

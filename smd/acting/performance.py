@@ -1,0 +1,92 @@
+"""Performance: characters with their poses over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+
+from smd.acting.terrain import Terrain
+from smd.character.character import Character
+from smd.character.poses import Poses
+from smd.doodle import Doodle
+from smd.errors import TransferError
+from smd.geometry.arrays import frozen_array
+from smd.score import Phrase
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Actor:
+    """A character, and what it does.
+
+    Attributes
+    ----------
+    name : unique in its performance; a device's where it acts out what somebody drew.
+    character : what is seen.
+    poses : local, a frame each, rotations sign-continuous; joint 0 is the ground root in the world.
+    phrases : what it performs, in time order, where that has names.
+    doodles : what it was drawn with, at stage scale (metres of the character's world), if it was.
+    """
+
+    name: str
+    character: Character
+    poses: Poses
+    phrases: tuple[Phrase, ...] = ()
+    doodles: tuple[Doodle, ...] = ()
+
+    def __post_init__(self) -> None:
+        j = len(self.character.skeleton)
+        rotation, translation = self.poses
+        rotation = frozen_array("rotation_xyzw", rotation, (None, j, 4), TransferError)
+        shape = (len(rotation), j, 3)
+        translation = frozen_array("translation_m", translation, shape, TransferError)
+        object.__setattr__(self, "poses", Poses(rotation, translation))
+        object.__setattr__(self, "phrases", tuple(self.phrases))
+        object.__setattr__(self, "doodles", tuple(self.doodles))
+
+    def __len__(self) -> int:
+        return len(self.poses.rotation_xyzw)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Performance:
+    """Everything that is on stage, at an even rate.
+
+    Attributes
+    ----------
+    rate_hz : frames per second.
+    start_s : time at frame 0, on the clock of phrases and doodles; frame i is at
+        ``start_s + i / rate_hz``.
+    actors : at least one; all with the same number of frames, and names of their own.
+    terrain : what they go on; None for the level ground.
+    warnings : what a person should know before trusting it.
+    source : what it comes from, as text by name, for whoever makes it again: a Score's JSON is
+        its ``score``.
+    """
+
+    rate_hz: float
+    start_s: float
+    actors: tuple[Actor, ...]
+    terrain: Terrain | None = None
+    warnings: tuple[str, ...] = ()
+    source: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
+            raise TransferError(f"rate_hz: expected a positive number, got {self.rate_hz!r}")
+        if not self.actors:
+            raise TransferError("performance: expected at least one actor, got none")
+        if len({len(actor) for actor in self.actors}) > 1:
+            raise TransferError("performance: expected actors of one length")
+        names = [actor.name for actor in self.actors]
+        for name in names:
+            if names.count(name) > 1:
+                raise TransferError(f"performance: actor {name!r} appears twice")
+        object.__setattr__(self, "actors", tuple(self.actors))
+        object.__setattr__(self, "warnings", tuple(self.warnings))
+        object.__setattr__(self, "source", MappingProxyType(dict(self.source)))
+
+    def __len__(self) -> int:
+        return len(self.actors[0])

@@ -1,0 +1,57 @@
+"""Standing: when each foot of a clip bears on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from smd.acting.legs import Leg, feet_of
+from smd.character.clip import Clip
+from smd.character.kinematics import joints_in_world
+from smd.geometry.arrays import BoolArray, FloatArray
+from smd.geometry.rotations import rotate
+
+TOUCHING_M = 0.005
+"""Height up to which a point of the sole touches the ground."""
+
+RESTING_M_S = 0.1
+"""Speed up to which a touching point rests: a heel that has landed does, one that drags not."""
+
+
+def standing(
+    clip: Clip, legs: Sequence[Leg], feet: Sequence[int] | None = None
+) -> dict[int, BoolArray]:
+    """Return when each foot stands ``(n,)``, by its joint.
+
+    It stands when the clip says that it or a joint below it touches, and also where its heel or
+    its ball rests on the ground next to that: clips label soles and toes, but a step begins on
+    the heel.
+    """
+    feet = feet_of(clip) if feet is None else feet
+    labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet}
+    for joint, touches in zip(clip.contact_joints, clip.contacts.T, strict=True):
+        foot = clip.skeleton.index(joint)
+        while foot >= 0 and foot not in labelled:
+            foot = int(clip.skeleton.parents[foot])
+        if foot >= 0:  # no foot: a hand
+            labelled[foot] |= touches
+    legs = [leg for leg in legs if leg.foot in labelled and labelled[leg.foot].any()]
+    local = clip.rotation_xyzw, clip.translation_m
+    foot_q, ankle = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+    for i, leg in enumerate(legs):
+        labelled[leg.foot] |= _rests(clip, leg, foot_q[:, i], ankle[:, i])
+    return labelled
+
+
+def _rests(clip: Clip, leg: Leg, foot_q: FloatArray, ankle: FloatArray) -> BoolArray:
+    """Return when the heel or the ball of a foot rests on the ground, in the clip's own world."""
+    rests = np.zeros(len(clip), dtype=bool)
+    for point_m, height_m in ((leg.heel_m, 0.0), (leg.ball_m, leg.ball_height_m)):
+        place = ankle + rotate(foot_q, point_m)
+        step = np.diff(place, axis=0)
+        still = np.hypot(step[:, 0], step[:, 2]) * clip.rate_hz < RESTING_M_S
+        touches = place[:, 1] - height_m < TOUCHING_M
+        rests[1:] |= still & touches[1:]
+        rests[:-1] |= still & touches[:-1]
+    return rests

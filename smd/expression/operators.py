@@ -1,0 +1,148 @@
+"""The operators of expression: retime, rescale and reshape a clip (section 6.3 of the paper [1]_).
+
+Each takes a clip and returns one of the same length, stages and contacts carried along; they can be
+composed in any order. The ground root's way stays the clip's: what rescales is the pose.
+
+References
+----------
+.. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.character.poses import Poses
+from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.rotations import (
+    inverse,
+    multiply,
+    normalized,
+    quaternion_from_rotvec,
+    rotate,
+    rotvec_from_quaternion,
+)
+
+SOFT = 0.1
+"""Of a power law's time: without it, a power of time has no speed, or all of it, at its start."""
+
+
+def retimed(clip: Clip, source_frame: FloatArray) -> Clip:
+    """Return a clip that shows at each frame another frame of itself.
+
+    Parameters
+    ----------
+    clip
+        Of n frames.
+    source_frame
+        ``(n,)`` not decreasing, from 0 to n - 1; fractional frames lie between two.
+    """
+    rotation = normalized(at_frames(clip.rotation_xyzw, source_frame))
+    translation = at_frames(clip.translation_m, source_frame)
+    nearest = np.round(source_frame).astype(np.int64)
+    return replace(
+        clip,
+        rotation_xyzw=rotation,
+        translation_m=translation,
+        stage_end_frames=retimed_ends(clip.stage_end_frames, source_frame),
+        contacts=clip.contacts[nearest],
+    )
+
+
+def at_frames(value: FloatArray, frame: FloatArray) -> FloatArray:
+    """Return values ``(n, …)``, one a frame, at fractional frames ``(m,)`` from 0 to n - 1."""
+    left = np.minimum(frame.astype(np.int64), len(value) - 2)
+    share = (frame - left).reshape(-1, *(1,) * (value.ndim - 1))
+    before = value[left]
+    return before + share * (value[left + 1] - before)
+
+
+def retimed_ends(stage_end_frames: IntArray, source_frame: FloatArray) -> IntArray:
+    """Return the frames ``(5,)`` at which stages end once a clip is retimed."""
+    last = len(source_frame) - 1
+    ends = np.minimum(np.searchsorted(source_frame, stage_end_frames - 1e-6), last)
+    ends[-1] = last  # a clip that has ended stands on
+    return ends
+
+
+def stage_timing(clip: Clip, lasting: Sequence[float], power: Sequence[float]) -> FloatArray:
+    """Return the source frame ``(n,)`` to show at each frame, by equation (6).
+
+    Each stage lasts so many times as long, and within it time runs as a power of itself; then all
+    stages are shortened or stretched alike, so that the whole keeps its length. Our reading: times
+    within a stage are counted from 0 to 1, so that every power is continuous and increasing.
+
+    Parameters
+    ----------
+    lasting, power
+        One of each a stage, positive.
+    """
+    last = len(clip) - 1
+    source, played = [0.0], [0.0]
+    start = 0
+    for end, times, exponent in zip(clip.stage_end_frames.tolist(), lasting, power, strict=True):
+        if end > start:
+            u = np.linspace(0.0, 1.0, end - start + 1)[1:]
+            source += (start + u * (end - start)).tolist()
+            played += (played[-1] + (end - start) * times * softened_power(u, exponent)).tolist()
+            start = end
+    scaled = np.asarray(played) * (last / played[-1])
+    return np.clip(np.interp(np.arange(last + 1), scaled, source), 0.0, last)
+
+
+def softened_power(u: FloatArray, exponent: float) -> FloatArray:
+    """Return ``u`` to a power, from 0 to 1, whose slope is finite and above zero everywhere."""
+    low, high = SOFT**exponent, (1.0 + SOFT) ** exponent
+    return ((u + SOFT) ** exponent - low) / (high - low)
+
+
+def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses) -> Clip:
+    """Return a clip whose joints go so many times as far from a pose, by equation (7).
+
+    Parameters
+    ----------
+    joints
+        Which; the ground root is none of them.
+    factor
+        ``(n,)``, or ``(n, k)`` of each joint, not negative; where it is 1 nothing changes. Let it
+        change smoothly, since a jump of it is one of the pose; and let it be 1 where a joint is
+        half a turn away from the pose, since there its way back changes sides.
+    about
+        The pose it is scaled about, a single one or one a frame: the first one of a stage.
+    """
+    at = np.asarray(joints, dtype=np.int64)
+    rotation, translation = clip.rotation_xyzw.copy(), clip.translation_m.copy()
+    first, place = about.rotation_xyzw[:, at], about.translation_m[:, at]
+    from_first = rotvec_from_quaternion(multiply(rotation[:, at], inverse(first)))
+    factor = factor.reshape(len(clip), -1, 1)
+    rotation[:, at] = multiply(quaternion_from_rotvec(factor * from_first), first)
+    translation[:, at] = place + factor * (translation[:, at] - place)
+    return replace(clip, rotation_xyzw=rotation, translation_m=translation)
+
+
+def reshaped(clip: Clip, bend_rad: Mapping[int, FloatArray], rest_xyzw: FloatArray) -> Clip:
+    """Return a clip whose joints are turned further about their own left axis.
+
+    The axis is the joint's at rest in the world, so that a positive angle bends forward whatever
+    way a rig's bones are turned.
+
+    Parameters
+    ----------
+    bend_rad
+        ``(n,)`` by joint.
+    rest_xyzw
+        ``(j, 4)`` how each joint is turned in the world at rest.
+    """
+    if not bend_rad:
+        return clip
+    joints = list(bend_rad)
+    left = rotate(inverse(rest_xyzw[joints]), np.array([1.0, 0.0, 0.0]))
+    angle = np.stack([bend_rad[joint] for joint in joints], axis=-1)
+    bend = quaternion_from_rotvec(angle[..., None] * left)
+    rotation = clip.rotation_xyzw.copy()
+    rotation[:, joints] = multiply(rotation[:, joints], bend)
+    return replace(clip, rotation_xyzw=rotation)

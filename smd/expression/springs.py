@@ -1,0 +1,99 @@
+"""Springs: joints that swing after what leads them, or are held (Laban's Flow)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from smd.character.clip import Clip
+from smd.expression.body import Body
+from smd.geometry.arrays import FloatArray
+from smd.geometry.easing import gaussian_smoothed, smootherstep
+from smd.geometry.rotations import normalized, sign_continuous
+
+SPRING_HZ, SOFTER = 4.0, 0.85
+"""Frequency at which a joint next to the trunk swings, and how much less each one further out."""
+
+DAMPING = 0.4
+"""Of these springs: they swing over by 1/4, back by 1/16. A hinge is critically damped (1): an
+elbow that swings through is broken."""
+
+DIED_AWAY = 12.0
+"""Time constants after which a spring is still: 6 millionths are left."""
+
+DAMPED_S = 0.07
+"""Smoothing of what is bound."""
+
+
+def sprung(clip: Clip, joints: Sequence[int], body: Body, share: FloatArray) -> Clip:
+    """Return a clip in which joints lag, swing over and overlap, each hung from a spring.
+
+    Parameters
+    ----------
+    share
+        ``(n,)`` from 0, the clip's own pose, to 1, the spring's.
+    """
+    at = list(joints)
+    softer = np.array([SOFTER ** _depth(clip, joint, body) for joint in at])
+    omega = 2.0 * np.pi * SPRING_HZ / clip.rate_hz * softer
+    damping = np.array([1.0 if joint in body.hinges else DAMPING for joint in at])
+    rotation = clip.rotation_xyzw.copy()
+    own = rotation[:, at]
+    swung = _swung(_laps(own) if clip.cyclic else own, omega, damping)[-len(own) :]
+    rotation[:, at] = _mixed(own, swung, share[:, None])
+    return replace(clip, rotation_xyzw=rotation)
+
+
+def damped(clip: Clip, joints: Sequence[int], share: FloatArray) -> Clip:
+    """Return a clip whose joints leave out what is quick and small; parameters as in `sprung`."""
+    rotation = clip.rotation_xyzw.copy()
+    own = rotation[:, list(joints)]
+    if clip.cyclic:
+        n = len(own) - 1
+        even = gaussian_smoothed(_laps(own), DAMPED_S * clip.rate_hz)[n : 2 * n + 1]
+    else:
+        even = gaussian_smoothed(own, DAMPED_S * clip.rate_hz)
+    rotation[:, list(joints)] = _mixed(own, even, share[:, None])
+    return replace(clip, rotation_xyzw=rotation)
+
+
+def _laps(own: FloatArray) -> FloatArray:
+    """Return a cycle three times over, its first frame being its last one again."""
+    return sign_continuous(np.concatenate([own[:-1], own[:-1], own]))
+
+
+def _swung(wanted: FloatArray, omega: FloatArray, damping: FloatArray) -> FloatArray:
+    """Return how springs follow values ``(n, j, 4)`` from rest; ``omega`` is in radians a frame.
+
+    x'' = omega^2 (wanted - x) - 2 damping omega x', by the trapezoidal rule: stable for any omega.
+    It is solved in frequencies, and what swings on beyond the end is let die away.
+    """
+    half = 0.5 * omega
+    size = len(wanted) + int(np.ceil(DIED_AWAY / (omega * damping).min()))
+    late = np.exp(-2j * np.pi * np.arange(size // 2 + 1) / size)[:, None]  # by one frame
+    pull = (half * (1.0 + late)) ** 2
+    response = pull / ((1.0 - late) ** 2 + 2.0 * damping * half * (1.0 - late**2) + pull)
+    moved = np.fft.rfft(wanted - wanted[:1], size, axis=0) * response[..., None]
+    return wanted[:1] + np.fft.irfft(moved, size, axis=0)[: len(wanted)]
+
+
+def _mixed(own: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
+    other = np.where(np.sum(own * other, axis=-1, keepdims=True) < 0.0, -other, other)
+    return normalized(own + share[..., None] * (other - own))
+
+
+def _depth(clip: Clip, joint: int, body: Body) -> int:
+    """Return how many joints there are between one and the trunk."""
+    depth = 0
+    parent = int(clip.skeleton.parents[joint])
+    while parent >= 0 and parent not in body.spine:
+        depth, parent = depth + 1, int(clip.skeleton.parents[parent])
+    return depth if parent >= 0 else 0
+
+
+def settled(n: int, edge: float) -> FloatArray:
+    """Return 1, but for a rise over the first ``edge`` of ``n`` frames and a fall over the last."""
+    u = np.arange(n) / (n - 1)
+    return smootherstep(np.minimum(u, 1.0 - u) / edge)

@@ -1,0 +1,411 @@
+"""Operators and Effort: the laws they state, on the shipped clips."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import smd
+from actions_library.folder import load_library
+from laban import Effort
+from smd.character.clip import Clip
+from smd.character.kinematics import forward_kinematics
+from smd.errors import TransferError
+from smd.expression.body import Arm, body_of
+from smd.expression.expressive import effort_timing, expressive, poses_at
+from smd.expression.operators import rescaled, reshaped, retimed, softened_power, stage_timing
+from smd.expression.reaching import ArmPose, arm_poses, with_hand_moved
+from smd.expression.springs import DAMPING, SPRING_HZ, damped, sprung
+from smd.expression.study import Study, study_of
+from smd.expression.timing import FASTEST, held_timing, pace_timing, time_timing, within_pace
+from smd.expression.tracing import redrawn, sweeps
+from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion, slerp
+from smd.transfer.repertoire import piece_name, played_effort
+
+LIBRARY = load_library()
+BODY = body_of(LIBRARY.clip("idle"))
+ONCE = ["punch", "kick", "throw", "bow", "jump", "wave", "sit_down"]
+POLES = [(t, w) for t in (-1.0, 0.0, 1.0) for w in (-1.0, 0.0, 1.0)]
+
+
+def world_of(clip: Clip) -> tuple[np.ndarray, np.ndarray]:
+    return forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+
+
+def studied(name: str) -> Study:
+    return study_of(LIBRARY.clip(name), BODY)
+
+
+def played(name: str, time: float, weight: float):
+    travels = LIBRARY.action(name).travels
+    return expressive(studied(name), Effort(time=time, weight=weight), travels=travels)
+
+
+def same(one, other, atol=0.0):
+    dots = np.abs(np.sum(one.rotation_xyzw * other.rotation_xyzw, axis=-1))
+    assert dots.min() >= 1.0 - 1e-12 - atol
+    np.testing.assert_allclose(one.translation_m, other.translation_m, atol=1e-12 + atol)
+
+
+@pytest.mark.parametrize("name", [*ONCE, "walk", "fly"])
+def test_without_effort_a_clip_is_the_same(name):
+    for effort in (Effort(), Effort(time=0.0, weight=0.0), Effort(space=0.0, flow=0.0)):
+        travels = LIBRARY.action(name).travels
+        assert expressive(studied(name), effort, travels=travels) is LIBRARY.clip(name)
+
+
+@pytest.mark.parametrize("name", ONCE)
+@pytest.mark.parametrize(("time", "weight"), POLES)
+def test_length_ends_and_order_are_kept(name, time, weight):
+    neutral, clip = LIBRARY.clip(name), played(name, time, weight)
+    assert len(clip) == len(neutral)
+    assert (np.diff(clip.stage_end_frames) >= 0).all()
+    for frame in (0, -1):
+        np.testing.assert_allclose(
+            np.abs(np.sum(clip.rotation_xyzw[frame] * neutral.rotation_xyzw[frame], axis=-1)),
+            1.0,
+            atol=1e-9,
+        )
+
+
+@pytest.mark.parametrize("name", ONCE)
+@pytest.mark.parametrize(("time", "weight"), POLES)
+def test_nothing_pops(name, time, weight):
+    def fastest(clip) -> float:
+        q = clip.rotation_xyzw[:, 1:]
+        turns = rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:]))
+        return float(np.linalg.norm(turns, axis=-1).max())
+
+    # As many frames are passed as the pace allows, each as much larger as the scale.
+    assert fastest(played(name, time, weight)) < 1.6 * FASTEST * fastest(LIBRARY.clip(name))
+
+
+def test_a_sudden_punch_waits_and_bursts_and_a_sustained_one_does_not():
+    def lasts(clip, stage: int) -> float:
+        return float(clip.stage_end_frames[stage] - clip.stage_end_frames[stage - 1])
+
+    sudden, neutral, sustained = (played("punch", t, 0.0) for t in (1.0, 0.0, -1.0))
+    begins = [clip.stage_end_frames[1] for clip in (sudden, neutral, sustained)]
+    assert begins[0] > begins[1] > begins[2]
+    assert lasts(sudden, 2) < lasts(neutral, 2) < lasts(sustained, 2)
+
+
+def hand_speed(clip) -> np.ndarray:
+    _, place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    hand = place[:, clip.skeleton.index("right_hand")] - place[:, 0]
+    return np.linalg.norm(np.diff(hand, axis=0), axis=-1) * clip.rate_hz
+
+
+@pytest.mark.parametrize("name", ["punch", "kick", "throw", "slash", "wave"])
+def test_a_strong_clip_is_faster_at_its_fastest_and_a_light_one_smaller(name):
+    strong, neutral, light = (played(name, 0.0, w) for w in (1.0, 0.0, -1.0))
+    assert hand_speed(strong).max() > hand_speed(neutral).max() > hand_speed(light).max()
+    assert hand_speed(light).sum() < 0.8 * hand_speed(neutral).sum()
+
+
+def test_a_strong_back_sinks_and_a_light_one_rises_and_the_eyes_stay():
+    def leans(clip, part: str) -> float:
+        q, _ = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+        x, y, z, w = q[:, clip.skeleton.index(part)].T
+        forward = 2.0 * (y * z + x * w) / (1.0 - 2.0 * (x * x + z * z))
+        return float(np.degrees(np.arctan(forward)).mean())
+
+    strong, light = played("walk", 0.0, 1.0), played("walk", 0.0, -1.0)
+    assert leans(strong, "upper_chest") > leans(light, "upper_chest") + 15.0
+    assert abs(leans(strong, "head") - leans(light, "head")) < 25.0
+
+
+@pytest.mark.parametrize("name", ["walk", "run", "sneak", "crawl"])
+@pytest.mark.parametrize("weight", [-1.0, 1.0])
+def test_a_gait_s_legs_and_pace_are_its_own(name, weight):
+    neutral, clip = LIBRARY.clip(name), played(name, 1.0, weight)
+    legs = [j for j, joint in enumerate(clip.skeleton.joints) if "leg" in joint or "foot" in joint]
+    kept = clip.rotation_xyzw[:, legs], neutral.rotation_xyzw[:, legs]
+    np.testing.assert_allclose(*kept, atol=1e-12)
+    np.testing.assert_array_equal(clip.translation_m[:, 0], neutral.translation_m[:, 0])
+    np.testing.assert_array_equal(clip.contacts, neutral.contacts)
+
+
+@pytest.mark.parametrize("name", ["walk", "dance", "fly"])
+def test_a_cycle_still_closes(name):
+    clip = played(name, -1.0, 1.0)
+    dots = np.abs(np.sum(clip.rotation_xyzw[0, 1:] * clip.rotation_xyzw[-1, 1:], axis=-1))
+    assert dots.min() > 1.0 - 1e-9
+
+
+def test_equation_7_with_one_nothing_and_a_half():
+    clip, joints = LIBRARY.clip("throw"), [3, 9, 12]
+    n = len(clip)
+    same(rescaled(clip, joints, np.ones(n), poses_at(clip, [10])), clip)
+    none = rescaled(clip, joints, np.zeros(n), poses_at(clip, [10]))
+    for joint in joints:
+        first = np.broadcast_to(clip.rotation_xyzw[10, joint], (n, 4))
+        np.testing.assert_allclose(
+            np.abs(np.sum(none.rotation_xyzw[:, joint] * first, axis=-1)), 1.0, atol=1e-12
+        )
+    half = rescaled(clip, joints, np.full(n, 0.5), poses_at(clip, [10])).rotation_xyzw[:, joints]
+    first = np.broadcast_to(clip.rotation_xyzw[10, joints], half.shape)
+    between = slerp(first, clip.rotation_xyzw[:, joints], np.full(half.shape[:-1], 0.5))
+    np.testing.assert_allclose(np.abs(np.sum(half * between, axis=-1)), 1.0, atol=1e-9)
+
+
+def test_equation_7_does_not_mind_a_quaternion_s_sign():
+    from dataclasses import replace
+
+    clip = LIBRARY.clip("punch")
+    flipped = replace(clip, rotation_xyzw=-clip.rotation_xyzw)
+    factor = np.linspace(0.2, 1.2, len(clip))
+    one, other = (rescaled(c, BODY.every, factor, poses_at(clip, [0])) for c in (flipped, clip))
+    same(one, other, 1e-9)
+
+
+@pytest.mark.parametrize("weight", [-1.0, -0.5, 0.5, 1.0])
+def test_who_sits_down_sits_and_who_falls_lies_on_the_ground(weight):
+    for name in ("sit_down", "stand_up", "fall", "roll", "crouch", "pick_up", "jump"):
+        clip, neutral = played(name, 0.0, weight), LIBRARY.clip(name)
+        pelvis = clip.skeleton.index("hips")
+        high, own = clip.translation_m[:, pelvis, 1], neutral.translation_m[:, pelvis, 1]
+        assert high[[0, -1]] == pytest.approx(own[[0, -1]])
+        assert high.min() > min(own.min(), 0.3) - 0.005
+        assert high.max() < max(own.max(), 0.96) * 1.06
+        if name in ("sit_down", "stand_up", "fall", "roll"):
+            assert high.min() < own.min() + 0.01
+
+
+def test_equation_6_without_change_is_the_clip():
+    clip = LIBRARY.clip("throw")
+    frames = stage_timing(clip, [1.0] * 5, [1.0] * 5)
+    np.testing.assert_allclose(frames, np.arange(len(clip)), atol=1e-9)
+    same(retimed(clip, frames), clip, 1e-9)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.floats(0.2, 5.0), min_size=5, max_size=5),
+    st.lists(st.floats(0.4, 1.6), min_size=5, max_size=5),
+    st.sampled_from(ONCE),
+)
+def test_every_timing_goes_on_from_the_first_frame_to_the_last(lasting, power, name):
+    clip = LIBRARY.clip(name)
+    frames = stage_timing(clip, lasting, power)
+    assert frames[0] == pytest.approx(0.0, abs=1e-9)
+    assert frames[-1] == pytest.approx(len(clip) - 1)
+    assert (np.diff(frames) > 0.0).all()
+    fastest = np.linspace(1.2, FASTEST, len(clip) - 1)
+    kept = within_pace(frames, fastest)
+    assert kept[-1] == pytest.approx(len(clip) - 1)
+    assert (np.diff(kept) > 0.0).all()
+    most = np.interp(0.5 * (kept[1:] + kept[:-1]), np.arange(len(clip) - 1) + 0.5, fastest)
+    assert (np.diff(kept) < 1.25 * most).all()
+
+
+@pytest.mark.parametrize("value", [-1.0, -0.4, 0.4, 1.0])
+@pytest.mark.parametrize(
+    "timing", [lambda s, v: time_timing(s.clip, v), lambda s, v: pace_timing(s.way_m, v)]
+)
+def test_effort_s_timings_go_on_too(timing, value):
+    for name in ONCE:
+        frames = timing(studied(name), value)
+        assert frames[0] == pytest.approx(0.0, abs=1e-6)
+        assert frames[-1] == pytest.approx(len(frames) - 1)
+        assert np.diff(frames).min() > 0.0
+
+
+@pytest.mark.parametrize("exponent", [0.6, 1.0, 1.4])
+def test_a_softened_power_goes_from_0_to_1_with_a_finite_slope(exponent):
+    u = np.linspace(0.0, 1.0, 1001)
+    value = softened_power(u, exponent)
+    assert (value[0], value[-1]) == pytest.approx((0.0, 1.0))
+    slope = np.diff(value) / np.diff(u)
+    assert slope.min() > 0.1 and slope.max() < 4.0
+
+
+def test_reshaping_adds_its_angle_about_the_left_axis():
+    clip = LIBRARY.clip("idle")
+    spine = clip.skeleton.index("spine")
+    bent = reshaped(clip, {spine: np.full(len(clip), 0.3)}, BODY.rest_xyzw)
+    turn = rotvec_from_quaternion(
+        multiply(inverse(clip.rotation_xyzw[:, spine]), bent.rotation_xyzw[:, spine])
+    )
+    np.testing.assert_allclose(turn, np.tile([0.3, 0.0, 0.0], (len(clip), 1)), atol=1e-9)
+
+
+def test_the_dial_scales_what_is_played_and_never_beyond_the_poles():
+    effort = Effort(time=0.62, weight=-0.97, space=0.6)
+    assert played_effort(effort, 0.0) == Effort(time=0.0, weight=0.0, space=0.0, flow=0.0)
+    assert played_effort(effort, 1.0) == Effort(time=0.6, weight=-1.0, space=0.5, flow=0.0)
+    assert played_effort(effort, 2.0) == Effort(time=1.0, weight=-1.0, space=1.0, flow=0.0)
+    assert piece_name("bow", effort, 0.0) == "bow"
+    assert piece_name("bow", effort, 1.0) == "bow time +0.6 weight -1.0 space +0.5"
+
+
+@pytest.mark.parametrize("time", [-1.0, 0.0, 0.5, 1.0])
+@pytest.mark.parametrize(("weight", "flow"), [(0.0, 1.0), (1.0, 0.0), (-1.0, -1.0), (1.0, 1.0)])
+def test_all_timings_together_go_on_and_keep_the_length(time, weight, flow):
+    for name in ONCE:
+        clip = LIBRARY.clip(name)
+        frames = effort_timing(study_of(clip, BODY), time, weight, flow)
+        assert frames[0] == pytest.approx(0.0, abs=1e-9)
+        assert frames[-1] == pytest.approx(len(clip) - 1)
+        assert np.diff(frames).min() >= 0.0
+        assert np.diff(frames).max() <= FASTEST + 0.1
+
+
+def test_a_sudden_clip_is_still_before_and_after():
+    frames = effort_timing(studied("throw"), 1.0, 0.0, 0.0)
+    busy = np.mean((frames > 0.0) & (frames < frames[-1]))
+    assert busy == pytest.approx(np.exp(-0.6), abs=0.02)
+
+
+def test_a_held_clip_rests_at_the_ends_of_its_stages():
+    clip = LIBRARY.clip("throw")
+    pace = np.diff(held_timing(clip.stage_end_frames, clip.rate_hz, 1.0))
+    for end in clip.stage_end_frames[:-1]:
+        assert pace[end - 1 : end + 1].max() < 0.45
+    assert pace.sum() == pytest.approx(len(clip) - 1)
+
+
+def arc(bow: float, n: int = 61) -> np.ndarray:
+    """Return a sweep along x of length 1 from rest to rest that bows out upward."""
+    u = np.linspace(0.0, 1.0, n)
+    u = u * u * (3.0 - 2.0 * u)
+    return np.stack([u, bow * np.sin(np.pi * u), np.zeros(n)], axis=-1)
+
+
+def test_there_and_back_are_two_sweeps():
+    there = arc(0.2)
+    assert sweeps(np.concatenate([there, there[-2::-1]]), 60.0) == [(0, 60), (60, 120)]
+
+
+def test_a_direct_hand_goes_straighter_and_an_indirect_one_bends():
+    def bend(path: np.ndarray) -> float:
+        return float(np.linalg.norm(path[:, 1:], axis=-1).max())
+
+    for bow in (0.1, 0.3):
+        path = arc(bow)
+        for space in (0.5, 1.0):
+            assert bend(path + redrawn(path, space, 60.0)) < (1.0 - 0.6 * space) * bow
+            assert bend(path + redrawn(path, -space, 60.0)) > bow + 0.08 * space
+    straight = arc(0.0)
+    np.testing.assert_allclose(redrawn(straight, 1.0, 60.0), 0.0, atol=1e-12)
+    for path in (straight, arc(0.3)):
+        for space in (-1.0, 1.0):
+            np.testing.assert_allclose(redrawn(path, space, 60.0)[[0, -1]], 0.0, atol=1e-9)
+
+
+def test_a_circle_has_no_straight_way():
+    turn = np.linspace(0.0, 2.0 * np.pi, 121)
+    circle = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=-1)
+    assert np.abs(redrawn(circle, 1.0, 60.0)).max() < 1e-9
+
+
+def test_a_redrawn_path_turns_with_the_world():
+    from smd.geometry.rotations import quaternion_from_rotvec
+
+    q, path = quaternion_from_rotvec(np.array([0.3, -0.8, 0.5])), arc(0.2)
+    for space in (-1.0, 1.0):
+        turned = redrawn(rotate(q, path), space, 60.0)
+        np.testing.assert_allclose(turned, rotate(q, redrawn(path, space, 60.0)), atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["throw", "clap", "crawl"])
+def test_a_hand_is_moved_by_what_was_asked_and_by_nothing_where_nothing_was(name):
+    clip = LIBRARY.clip(name)
+    for i, arm in enumerate(BODY.arms):
+        pose = arm_poses(clip, BODY.arms)[i]
+        same(with_hand_moved(clip, arm, pose, np.zeros((len(clip), 3))), clip, 1e-9)
+        chest = world_of(clip)[1][:, BODY.chest]
+        offset = 0.2 * (chest - pose.hand_m)
+        moved = arm_poses(with_hand_moved(clip, arm, pose, offset), BODY.arms)[i]
+        assert np.abs(moved.hand_m - pose.hand_m - offset).max() < 0.02
+        # The elbow stays in the plane that it is bent in: nothing but a swing is added.
+        assert elbow_side(moved, arm).min() > min(elbow_side(pose, arm).min(), 0.0) - 0.02
+
+
+def elbow_side(pose: ArmPose, arm: Arm) -> np.ndarray:
+    """Return the sine by which an elbow is bent, negative when it is broken."""
+    upper, lower = pose.elbow_m - pose.shoulder_m, pose.hand_m - pose.elbow_m
+    hinge = rotate(pose.upper_xyzw, arm.limb.upper_hinge)
+    sine = np.sum(np.cross(upper, lower) * hinge, axis=-1)
+    return sine / (np.linalg.norm(upper, axis=-1) * np.linalg.norm(lower, axis=-1))
+
+
+def test_a_spring_swings_over_as_its_damping_says_and_comes_to_rest():
+    clip = LIBRARY.clip("idle")
+    hand = BODY.arms[0].hand
+    n, start = len(clip), 60
+    angle = np.where(np.arange(n) < start, 0.0, 0.4)
+    from dataclasses import replace
+
+    from smd.geometry.rotations import quaternion_about
+
+    rotation = clip.rotation_xyzw.copy()
+    rotation[:, hand] = quaternion_about([0.0, 1.0, 0.0], angle)
+    stepping = replace(clip, rotation_xyzw=rotation, cyclic=False)
+    swung = sprung(stepping, [hand], BODY, np.ones(n)).rotation_xyzw[:, hand]
+    turned = 2.0 * np.arctan2(swung[:, 1], swung[:, 3])
+    over = np.exp(-np.pi * DAMPING / np.sqrt(1.0 - DAMPING**2))
+    assert turned.max() / 0.4 - 1.0 == pytest.approx(over, abs=0.02)
+    assert turned[-1] == pytest.approx(0.4, abs=1e-3)
+    first_top = (int(np.argmax(turned)) - start) / clip.rate_hz
+    assert 0.5 / SPRING_HZ < first_top < 1.0 / SPRING_HZ
+
+
+@pytest.mark.parametrize("name", ["throw", "wave", "walk", "dance"])
+@pytest.mark.parametrize("flow", [-1.0, 1.0])
+@pytest.mark.parametrize("space", [-1.0, 1.0])
+def test_space_and_flow_break_no_elbow_and_no_cycle(name, flow, space):
+    travels = LIBRARY.action(name).travels
+    clip = expressive(studied(name), Effort(space=space, flow=flow), travels=travels)
+    for arm, pose in zip(BODY.arms, arm_poses(clip, BODY.arms), strict=True):
+        # People's elbows reach 5 degrees beyond straight.
+        assert np.degrees(np.arcsin(elbow_side(pose, arm).min())) > -3.0
+    if clip.cyclic:
+        dots = np.abs(np.sum(clip.rotation_xyzw[0, 1:] * clip.rotation_xyzw[-1, 1:], axis=-1))
+        assert dots.min() > 1.0 - 1e-3
+
+
+def test_damping_leaves_what_is_slow_and_takes_what_is_quick():
+    from dataclasses import replace
+
+    from smd.geometry.rotations import quaternion_about
+
+    clip, hand = LIBRARY.clip("idle"), BODY.arms[0].hand
+    time_s = np.arange(len(clip)) / clip.rate_hz
+    for hz in (0.25, 6.0):
+        rotation = clip.rotation_xyzw.copy()
+        rotation[:, hand] = quaternion_about([1.0, 0.0, 0.0], 0.2 * np.sin(2 * np.pi * hz * time_s))
+        shaking = replace(clip, rotation_xyzw=rotation, cyclic=False)
+        left = damped(shaking, [hand], np.ones(len(clip))).rotation_xyzw[30:-30, hand]
+        kept = np.ptp(2.0 * np.arctan2(left[:, 0], left[:, 3])) / 0.4
+        # A Gaussian's own answer to a sine.
+        assert kept == pytest.approx(np.exp(-0.5 * (2 * np.pi * hz * 0.07) ** 2), abs=0.03)
+
+
+def test_a_performance_with_the_dial_at_0_is_neutral_and_above_it_is_not():
+    from smd.formats import read_recording
+    from smd.score_file import read_score
+    from tests.smd.synthetic.test_stories import RECORDINGS
+
+    recording = read_recording(RECORDINGS / "postman.csv")
+    score = smd.parse(recording, LIBRARY)
+    neutral = smd.animate(score, recording, LIBRARY, expressiveness=0.0)
+    played_ = smd.animate(score, recording, LIBRARY)
+    assert read_score(RECORDINGS / "postman.score.json").performers  # it has phrases
+    apart = np.abs(neutral.actors[0].poses.rotation_xyzw - played_.actors[0].poses.rotation_xyzw)
+    assert apart.max() > 0.05
+    # the same way, each place of it at another moment
+    way, there = (
+        actor.poses.translation_m[:, 0] for actor in (neutral.actors[0], played_.actors[0])
+    )
+    step = np.diff(way, axis=0)
+    along = np.einsum("nmi,mi->nm", there[:, None] - way[:-1], step) / (
+        np.einsum("mi,mi->m", step, step) + 1e-12
+    )
+    nearest = way[:-1] + np.clip(along, 0.0, 1.0)[..., None] * step
+    assert np.linalg.norm(there[:, None] - nearest, axis=-1).min(axis=1).max() < 0.05
+    for wrong in (-0.1, 2.1, float("nan")):
+        with pytest.raises(TransferError, match="expressiveness"):
+            smd.animate(score, recording, LIBRARY, expressiveness=wrong)
