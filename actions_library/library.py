@@ -9,6 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from laban.frozen import Frozen
 from smd.errors import LibraryError
 from smd.recognition.action import Action
 
@@ -26,7 +27,7 @@ class Credit:
 
 
 @dataclass(frozen=True, eq=False)
-class Library:
+class Library(Frozen):
     """Actions, and the character and clips that show them; a folder on disk.
 
     The character and the clips are read when they are first asked for: to recognise an action

@@ -19,8 +19,8 @@ from smd.doodle import Doodle
 from smd.geometry.arrays import FloatArray
 from smd.recognition import pattern as ast
 from smd.recognition.bank import Bank, compile_library, occurrences
-from smd.recognition.recognizer import TokenSpotter
 from smd.recognition.streaming import BLOCK_S, RecognitionStream
+from smd.recognition.token_spotter import TokenSpotter
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth

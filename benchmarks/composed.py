@@ -106,7 +106,7 @@ class Teaching:
 
 
 @dataclass(frozen=True, slots=True)
-class Gesture:
+class Annotation:
     """A take in a session: the action that it is, None where the library has none, and when."""
 
     action: str | None
@@ -133,7 +133,7 @@ class Session:
     examples: Mapping[str, tuple[Doodle, ...]]
     free: Doodle
     held: BoolArray
-    gestures: tuple[Gesture, ...]
+    gestures: tuple[Annotation, ...]
     edges_s: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
@@ -158,7 +158,7 @@ class Session:
         return min(max(place, 0), len(self.gestures) - 1)
 
 
-class _Part(NamedTuple):
+class _PoseTrack(NamedTuple):
     """Poses at `SENSOR_HZ`: ``(n, 3)`` and ``(n, 4)``."""
 
     position_m: FloatArray
@@ -258,7 +258,7 @@ def compose(
     takes: Sequence[tuple[str | None, Doodle]],
     idle: Sequence[Doodle],
     rng: np.random.Generator,
-) -> tuple[Doodle, BoolArray, tuple[Gesture, ...]]:
+) -> tuple[Doodle, BoolArray, tuple[Annotation, ...]]:
     """Put takes and idling together in turn.
 
     Returns
@@ -287,7 +287,7 @@ def compose(
     at_s = np.arange(len(position_m)) / SENSOR_HZ
     free = resampled(Doodle(at_s, position_m, orientation_xyzw), RATE_HZ)
     gestures = tuple(
-        Gesture(name, first / SENSOR_HZ, last / SENSOR_HZ)
+        Annotation(name, first / SENSOR_HZ, last / SENSOR_HZ)
         for (name, _), (first, last) in zip(takes, spans, strict=True)
     )
     held = np.zeros(len(free), bool)
@@ -331,14 +331,14 @@ def resampled(doodle: Doodle, rate_hz: float) -> Doodle:
     return Doodle(np.arange(count) / rate_hz, position_m, orientation_xyzw, doodle.device)
 
 
-def _part_of(doodle: Doodle) -> _Part:
+def _part_of(doodle: Doodle) -> _PoseTrack:
     even = resampled(doodle, SENSOR_HZ)
-    return _Part(even.position_m, even.orientation_xyzw)
+    return _PoseTrack(even.position_m, even.orientation_xyzw)
 
 
 def _idling(
     idle: Sequence[Doodle], start_m: FloatArray, start_xyzw: FloatArray, rng: np.random.Generator
-) -> _Part:
+) -> _PoseTrack:
     """Return a piece of idling that begins at a pose: carried there, and held as there."""
     long = [doodle for doodle in idle if doodle.duration_s > PAUSE_S[1]]
     share = np.array([doodle.duration_s for doodle in long])
@@ -353,21 +353,21 @@ def _idling(
         if len(piece.position_m) > 2 and not _is_too_fast(piece):
             break
     turn = multiply(inverse(piece.orientation_xyzw[0]), start_xyzw)
-    return _Part(
+    return _PoseTrack(
         piece.position_m - piece.position_m[0] + start_m, multiply(piece.orientation_xyzw, turn)
     )
 
 
-def _seen_by_camera(part: _Part, rng: np.random.Generator) -> _Part:
+def _seen_by_camera(part: _PoseTrack, rng: np.random.Generator) -> _PoseTrack:
     """Return poses with the noise that takes have."""
     n = len(part.position_m)
     turn = quaternion_from_rotvec(rng.normal(0.0, NOISE_RAD, (n, 3)))
-    return _Part(
+    return _PoseTrack(
         part.position_m + rng.normal(0.0, NOISE_M, (n, 3)), multiply(part.orientation_xyzw, turn)
     )
 
 
-def _is_too_fast(part: _Part) -> bool:
+def _is_too_fast(part: _PoseTrack) -> bool:
     """Return whether a hand moves as none does."""
     speed_m_s = SENSOR_HZ * np.linalg.norm(np.diff(part.position_m, axis=0), axis=1)
     steps = multiply(inverse(part.orientation_xyzw[:-1]), part.orientation_xyzw[1:])
@@ -375,7 +375,7 @@ def _is_too_fast(part: _Part) -> bool:
     return bool(speed_m_s.max() > FASTEST_M_S or turning_rad_s.max() > FASTEST_RAD_S)
 
 
-def _movement(before: _Part, after: _Part, rng: np.random.Generator) -> _Part:
+def _movement(before: _PoseTrack, after: _PoseTrack, rng: np.random.Generator) -> _PoseTrack:
     """Return how a hand goes from the end of one part to the begin of another.
 
     The way of least jerk (a polynomial of fifth degree [1]_) from the one's velocity to the
@@ -402,7 +402,7 @@ def _movement(before: _Part, after: _Part, rng: np.random.Generator) -> _Part:
     )
     ends_xyzw = (before.orientation_xyzw[-1], after.orientation_xyzw[0])
     from_xyzw, to_xyzw = (np.tile(q, (len(s), 1)) for q in ends_xyzw)
-    return _Part(position_m, slerp(from_xyzw, to_xyzw, bell))
+    return _PoseTrack(position_m, slerp(from_xyzw, to_xyzw, bell))
 
 
 def _velocity(position_m: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ from laban.committee import MEMBERS, folds, held_out_odds, temperature
 from laban.linear import Linear
 from laban.motion import FloatArray
 from laban.training import entries_of, seen_in
-from smd.effort import Examples
+from smd.effort import TrainingSet
 
 IntArray = NDArray[np.int64]
 
@@ -65,7 +65,7 @@ def read(seen: FloatArray, goal: FloatArray, whose: IntArray, asked: FloatArray)
     return found
 
 
-def by_simulated(examples: Examples, against: bool, rng: np.random.Generator) -> Shares:
+def by_simulated(examples: TrainingSet, against: bool, rng: np.random.Generator) -> Shares:
     """Return the share that groups tell of all others, by choice and power."""
     described = examples.descriptions
     whose = np.unique(np.asarray(examples.performers), return_inverse=True)[1]
@@ -96,7 +96,7 @@ def by_simulated(examples: Examples, against: bool, rng: np.random.Generator) ->
     return {choice: float(np.mean(shares)) for choice, shares in right.items()}
 
 
-def by_real(examples: Examples, against: bool) -> Shares:
+def by_real(examples: TrainingSet, against: bool) -> Shares:
     """Return the mean over the axes of what is told of real people, each left out."""
     described = examples.descriptions
     whose = np.unique(np.asarray(examples.performers), return_inverse=True)[1]

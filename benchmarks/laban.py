@@ -24,15 +24,16 @@ from benchmarks.process import picture_folder, run
 from laban import AXES, EffortModel, EffortStream, RigidMotion, load_effort_model, read_effort
 from laban.committee import folds
 from laban.description import describe
+from laban.effort import POLES
 from laban.features import effort_features
-from laban.model import POLES, effort_of
+from laban.model import effort_of
 from laban.naive_bayes import fit_papers_method
 from laban.own import OwnMeasure, measure_of
 from laban.training import AxisReport, Training
 from smd.doodle import Doodle, Recording
 from smd.effort import (
     SIMULATED_SEED,
-    Examples,
+    TrainingSet,
     accuracy_interval,
     read_manifest,
     recording_efforts,
@@ -129,22 +130,22 @@ def print_reports(title: str, reports: dict[str, AxisReport], *, chances: bool) 
     print(f"    {'mean':7} {mean:.3f}", flush=True)
 
 
-def real_people() -> tuple[list[RigidMotion], list[Doodle], Examples]:
+def real_people() -> tuple[list[RigidMotion], list[Doodle], TrainingSet]:
     """Return the real takes: as motions, as doodles, and described."""
     rows = read_manifest(DATA / "manifest.csv")
     doodles = [read_recording(row.path, SourceFrame(up="z")).doodles[0] for row in rows]
     motions = [smooth(doodle) for doodle in doodles]
     described = np.array([describe(motion) for motion in motions])
     meant = np.array([row.meant for row in rows])
-    return motions, doodles, Examples(described, meant, tuple(row.performer for row in rows))
+    return motions, doodles, TrainingSet(described, meant, tuple(row.performer for row in rows))
 
 
-def by_axis(examples: Examples) -> dict[str, FloatArray]:
+def by_axis(examples: TrainingSet) -> dict[str, FloatArray]:
     """Return what was meant, by axis."""
     return dict(zip(AXES, examples.meant.T, strict=True))
 
 
-def print_real(motions: Sequence[RigidMotion], examples: Examples) -> None:
+def print_real(motions: Sequence[RigidMotion], examples: TrainingSet) -> None:
     """Print how real people are told, everything chosen without the one who is judged."""
     whose = np.unique(np.asarray(examples.performers), return_inverse=True)[1]
     fifty = np.array([effort_features(motion) for motion in motions])
@@ -162,7 +163,7 @@ def print_real(motions: Sequence[RigidMotion], examples: Examples) -> None:
     print_transfer(load_effort_model(), examples, whose)
 
 
-def print_transfer(model: EffortModel, examples: Examples, whose: NDArray[np.int64]) -> None:
+def print_transfer(model: EffortModel, examples: TrainingSet, whose: NDArray[np.int64]) -> None:
     """Print how the shipped model, which learned from simulated people, does on real ones."""
     alone, own = judged(model, examples, whose)
     print_reports("transfer: the shipped model", alone, chances=True)
@@ -170,7 +171,7 @@ def print_transfer(model: EffortModel, examples: Examples, whose: NDArray[np.int
 
 
 def judged(
-    model: EffortModel, examples: Examples, whose: NDArray[np.int64]
+    model: EffortModel, examples: TrainingSet, whose: NDArray[np.int64]
 ) -> tuple[dict[str, AxisReport], dict[str, AxisReport]]:
     """Return how a model does on takes it has not seen, alone and with the performers' takes."""
     measures = {int(p): measure_of(examples.descriptions[whose == p]) for p in np.unique(whose)}
@@ -268,7 +269,7 @@ def changed(doodle: Doodle, how: str, rng: np.random.Generator) -> Doodle:
 def flips(before: FloatArray, after: FloatArray, meant: FloatArray) -> str:
     """Return the shares of decisions that differ: of those for a pole that was meant, and of all.
 
-    ``before (n, a)``, ``after (draws, n, a)`` and ``meant (n, a)``, which is as in `Examples`.
+    ``before (n, a)``, ``after (draws, n, a)`` and ``meant (n, a)``, which is as in `TrainingSet`.
     """
     differ = (before > 0) != (after > 0)
     of_poles = 100.0 * differ[:, np.abs(meant) == 1.0].mean(axis=1)
@@ -282,7 +283,7 @@ def flips(before: FloatArray, after: FloatArray, meant: FloatArray) -> str:
 def print_robustness(title: str, doodles: Sequence[Doodle], meant: FloatArray) -> None:
     """Print by how much the shipped model's readings change, and how many decisions flip.
 
-    ``meant (n, 4)`` is as in `Examples`.
+    ``meant (n, 4)`` is as in `TrainingSet`.
     """
     model, rng = load_effort_model(), np.random.default_rng(SEED)
     before = np.array([values(doodle, model) for doodle in doodles])
@@ -295,7 +296,7 @@ def print_robustness(title: str, doodles: Sequence[Doodle], meant: FloatArray) -
         print(f"  {how:30} largest change {largest:.4f}, {flips(before, after, meant)}")
 
 
-def print_left_out_robustness(doodles: Sequence[Doodle], examples: Examples) -> None:
+def print_left_out_robustness(doodles: Sequence[Doodle], examples: TrainingSet) -> None:
     """Print how many decisions flip, by models that the others' takes taught."""
     rng = np.random.default_rng(SEED)
     noisy = [[describe(smooth(changed(d, NOISE, rng))) for d in doodles] for _ in range(DRAWS)]
@@ -305,7 +306,7 @@ def print_left_out_robustness(doodles: Sequence[Doodle], examples: Examples) -> 
     performers = np.asarray(examples.performers)
     for person in np.unique(performers):
         out = performers == person
-        others = Examples(described[0, ~out], examples.meant[~out], tuple(performers[~out]))
+        others = TrainingSet(described[0, ~out], examples.meant[~out], tuple(performers[~out]))
         model = others.train(trained_on="benchmark").model
         for i, takes in enumerate(described[:, out]):
             readings[:, i, out] = [
@@ -342,7 +343,7 @@ def print_scale(scale: float, before: FloatArray, after: FloatArray, meant: Floa
     print(f"      {', '.join(each)}", flush=True)
 
 
-def print_scales(title: str, doodles: Sequence[Doodle], examples: Examples) -> None:
+def print_scales(title: str, doodles: Sequence[Doodle], examples: TrainingSet) -> None:
     """Print how many decisions of the shipped model flip when takes are larger or smaller."""
     model = load_effort_model()
     performers = np.asarray(examples.performers)
@@ -514,7 +515,7 @@ def main() -> None:
     described = np.array([describe(smooth(take.doodle)) for take in takes])
     players = tuple(take.player for take in takes)
     print_scales(
-        "simulated people", [take.doodle for take in takes], Examples(described, meant, players)
+        "simulated people", [take.doodle for take in takes], TrainingSet(described, meant, players)
     )
     print_free_play()
     print_histories()

@@ -20,8 +20,8 @@ from smd.recognition.bank import compile_library, least_costs_of_parts
 from smd.recognition.costs import DEFAULT_COSTS, run_costs
 from smd.recognition.cutting import best_cut
 from smd.recognition.exemplar import Exemplar
+from smd.recognition.loose_ends import with_loose_ends
 from smd.recognition.proposals import Proposal, explaining, rest_to_rest, without_stir
-from smd.recognition.recognizer import with_loose_ends
 from smd.recognition.segmentation import Segment
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import TokenRun

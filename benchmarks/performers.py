@@ -13,11 +13,11 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from benchmarks.greedy import longest_match_segments
 from smd.doodle import Doodle
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition import Recognizer, learn_action
-from smd.recognition.greedy import longest_match_segments
-from smd.recognition.recognizer import recognize
+from smd.recognition.token_spotter import recognize
 from smd.smoothing import smooth
 from smd.synthetic.gestures import GESTURES
 from smd.synthetic.person import STEADY, Person, simulated_person
@@ -106,7 +106,7 @@ def edits(meant: Sequence[str], found: Sequence[str]) -> int:
 
 
 @dataclass
-class Tally:
+class EditCounts:
     """How many actions were played, and how many edits from them each form is."""
 
     played: int = 0
@@ -114,9 +114,9 @@ class Tally:
     paper: int = 0
 
 
-def played_at(difficulty: float) -> tuple[dict[tuple[int, int, int], Tally], tuple[int, int]]:
+def played_at(difficulty: float) -> tuple[dict[tuple[int, int, int], EditCounts], tuple[int, int]]:
     """Return what was read of rows of each kind, and how often punch and throw were right."""
-    tallies = {kind: Tally() for kind in ROWS}
+    tallies = {kind: EditCounts() for kind in ROWS}
     pair = right = 0
     for index in range(PEOPLE):
         person, rng = performer(index, difficulty)

@@ -25,7 +25,7 @@ from smd.formats import SourceFrame, read_recording
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition import Recognizer
-from smd.recognition.recognizer import Span
+from smd.recognition.detection import Detection
 from smd.smoothing import smooth
 from smd.synthetic.efforts import labelled_takes
 from smd.synthetic.gestures import GESTURES
@@ -41,7 +41,7 @@ HELD_OUT = 2028
 PEOPLE = 60
 
 
-def spans_of(doodle: Doodle, recognizer: Recognizer = RECOGNIZER) -> list[Span]:
+def spans_of(doodle: Doodle, recognizer: Recognizer = RECOGNIZER) -> list[Detection]:
     """Return what is recognised in a doodle."""
     return recognizer.spot(doodle)
 

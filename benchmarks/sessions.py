@@ -2,10 +2,11 @@
 
 Composed sessions (`benchmarks.composed`) of people 8 to 14 with the pauses of nine idle hands;
 ``--develop`` takes people 1 to 7 and nine others, and is the one to choose by. Beside ours stand a
-plain spotter by warping (`benchmarks.spotter`) and the form with limits (`benchmarks.limits`), on
-the same sessions in the same run. Goals: F1 0.05 above the plain spotter and twice that with
-limits; with the trigger held 92 % of the known takes found, and at tolerance 0.8 half of the others
-left alone; 0.3 false a minute in idle hands where 70 % of drawn takes are found.
+plain spotter by warping (`benchmarks.plain_spotter`) and the form with limits
+(`benchmarks.limits`), on the same sessions in the same run. Goals: F1 0.05 above the plain spotter
+and twice that with limits; with the trigger held 92 % of the known takes found, and at tolerance
+0.8 half of the others left alone; 0.3 false a minute in idle hands where 70 % of drawn takes are
+found.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ from benchmarks.guards import (
     spans_in,
 )
 from benchmarks.limits import LimitRecognizer
-from benchmarks.spotter import Spotter
+from benchmarks.plain_spotter import PlainSpotter
 from benchmarks.tally import Tally, f1_gain_interval, f1_interval, tally
 from benchmarks.variants import VARIANTS
 from smd.doodle import Doodle
@@ -91,14 +92,14 @@ class Trial:
 
 
 @dataclass(frozen=True, slots=True)
-class Trials:
+class TrialSet:
     """All trials, to choose from."""
 
     every: tuple[Trial, ...]
 
-    def of(self, form: str, said: str, teaching: Teaching, small: bool | None = None) -> Trials:
+    def of(self, form: str, said: str, teaching: Teaching, small: bool | None = None) -> TrialSet:
         """Return those of a form, what is said, a teaching and, if asked for, a size."""
-        return Trials(
+        return TrialSet(
             tuple(
                 one
                 for one in self.every
@@ -121,7 +122,7 @@ class Trials:
         return [people[person] for person in sorted(people)]
 
 
-def trials(sessions: Sequence[Session], idle: Sequence[Doodle]) -> Trials:
+def trials(sessions: Sequence[Session], idle: Sequence[Doodle]) -> TrialSet:
     """Let every form find what it can in every session, and in idle hands."""
     found: list[Trial] = []
     for number, session in enumerate(sessions, 1):
@@ -151,7 +152,7 @@ def trials(sessions: Sequence[Session], idle: Sequence[Doodle]) -> Trials:
             file=sys.stderr,
             flush=True,
         )
-    return Trials(tuple(found))
+    return TrialSet(tuple(found))
 
 
 def _forms(session: Session) -> Iterator[tuple[str, Spots, float, Sequence[str]]]:
@@ -165,7 +166,7 @@ def _forms(session: Session) -> Iterator[tuple[str, Spots, float, Sequence[str]]
         making_s = learning_s + time.process_time() - started
         yield form, made, making_s, (FREE, DRAWN)
     started = time.process_time()
-    plain = Spotter(session.examples)
+    plain = PlainSpotter(session.examples)
     yield PLAIN, plain, time.process_time() - started, (FREE, DRAWN)
     yield OURS, Recognizer(actions, tolerance=STRICT), 0.0, (DRAWN_STRICT,)
     yield LIMITS, LimitRecognizer(actions, tolerance=STRICT), 0.0, (DRAWN_STRICT,)
@@ -187,7 +188,7 @@ def print_sizes(sessions: Sequence[Session], people: Sequence[int]) -> None:
     print(f"at rest, hands tremble by {told[0]} within takes, by {told[1]} between", flush=True)
 
 
-def print_found(found: Trials, said: str) -> None:
+def print_found(found: TrialSet, said: str) -> None:
     """Print what is found in the sessions, and what ours gains over the others."""
     print(
         "  taught       form           F1 (95 % over people)  of 6, of all  recall  precision  "
@@ -225,7 +226,7 @@ def _off(whole: Tally) -> str:
     return f"{middle[0]:.2f}, {middle[1]:.2f} s; {most[0]:.2f}, {most[1]:.2f} s"
 
 
-def print_drawn(found: Trials) -> None:
+def print_drawn(found: TrialSet) -> None:
     """Print what is said of takes with the trigger held, known and of other classes."""
     print("with the trigger held: known takes found, and others of which nothing is said")
     for teaching in TEACHINGS:
@@ -239,7 +240,7 @@ def print_drawn(found: Trials) -> None:
                 )
 
 
-def print_idle(found: Trials) -> None:
+def print_idle(found: TrialSet) -> None:
     """Print what the sessions' libraries find in idle hands, beside their recall of takes."""
     print(
         "idle hands with every session's library: how long, false a minute, and in the worst "
@@ -257,7 +258,7 @@ def print_idle(found: Trials) -> None:
             )
 
 
-def print_times(found: Trials) -> None:
+def print_times(found: TrialSet) -> None:
     """Print what each form took, with small libraries and with full ones."""
     print(
         "processor time a minute of session without a trigger, of 6 classes and of all; to learn "

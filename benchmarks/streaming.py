@@ -15,8 +15,9 @@ from laban import RigidMotion
 from smd.doodle import Doodle
 from smd.recognition import Recognizer
 from smd.recognition.bank import compile_library
-from smd.recognition.recognizer import Span, TokenSpotter
+from smd.recognition.detection import Detection
 from smd.recognition.streaming import HORIZON_S, RecognitionStream, Spotter
+from smd.recognition.token_spotter import TokenSpotter
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 from smd.synthetic.gestures import GESTURES
@@ -40,13 +41,13 @@ def rows() -> list[Doodle]:
 
 def streamed(
     doodle: Doodle, spotter: Spotter, horizon_s: float
-) -> tuple[list[Span], list[float], list[float]]:
+) -> tuple[list[Detection], list[float], list[float]]:
     """Return the spans, how long after its end each became final (but the last ones), and costs.
 
     These are processor time in ms a sample, averaged over a second of samples each.
     """
     stream = RecognitionStream(spotter, horizon_s=horizon_s)
-    spans: list[Span] = []
+    spans: list[Detection] = []
     late_s: list[float] = []
     spent: list[float] = []
     samples = zip(doodle.time_s, doodle.position_m, doodle.orientation_xyzw, strict=True)
@@ -61,18 +62,18 @@ def streamed(
     return spans + stream.finish(), late_s, whole.mean(axis=1).tolist()
 
 
-def spans_of(spotter: Spotter, motion: RigidMotion) -> list[Span]:
+def spans_of(spotter: Spotter, motion: RigidMotion) -> list[Detection]:
     """Return what the offline pass finds in a whole doodle."""
     runs = tokenize(motion)
     return list(spotter.named(motion, runs, spotter.chosen(motion, runs)))
 
 
-def names(spans: Sequence[Span]) -> list[str]:
+def names(spans: Sequence[Detection]) -> list[str]:
     """Return the spans' actions."""
     return [span.action for span in spans]
 
 
-def alike(spans: Sequence[Span], others: Sequence[Span]) -> int:
+def alike(spans: Sequence[Detection], others: Sequence[Detection]) -> int:
     """Return how many of others are among spans: the same action, over most of its time."""
     count = 0
     for other in others:

@@ -18,16 +18,16 @@ import numpy as np
 
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from benchmarks import gestures
+from benchmarks.greedy import longest_match_segments
 from benchmarks.performers import edits
 from smd.errors import SmdError
 from smd.formats import SourceFrame, read_recording
 from smd.recognition import pattern as ast
 from smd.recognition.bank import compile_library, distances
-from smd.recognition.greedy import longest_match_segments
 from smd.recognition.pattern import Pattern
-from smd.recognition.recognizer import recognize
 from smd.recognition.segmentation import Segmenter, least_cost_segments
 from smd.recognition.token_costs import TokenCosts, graded_costs, unit_costs
+from smd.recognition.token_spotter import recognize
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from laban import AXES
 from smd.character.character import Character
 from smd.geometry.arrays import FloatArray
 
@@ -23,6 +24,14 @@ _PHRASES = [
     *("#1f77b4", "#e8710a", "#2a9d55", "#c8385a", "#8456b8", "#00939b"),
     *("#b8860b", "#d1589b", "#5b7f2e", "#a0522d", "#4b5fc8", "#6d7681"),
 ]
+
+# Muted beside the phrases, each lighter or darker than its neighbour.
+_EFFORT = ["#475063", "#a5afbd", "#7d6748", "#cdb88f", "#4f6b5c", "#a9c2b1"]
+
+
+def effort_color(axis: str) -> str:
+    """Return the sRGB code of an axis of Effort; axes are told apart by their order."""
+    return _EFFORT[AXES.index(axis) % len(_EFFORT)]
 
 
 def action_colors(actions: Iterable[str]) -> dict[str, RGB]:

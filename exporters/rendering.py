@@ -39,7 +39,7 @@ class Trace:
     width_px: float
 
 
-class Stage:
+class Renderer:
     """A ground, characters and lines, drawn again and again from different viewpoints.
 
     Parameters

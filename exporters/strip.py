@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw, ImageFont
 from exporters.figures import Figure, Scene, read_scene
 from exporters.filmstrip import REFUSED
 from exporters.palette import RGB, action_colors
-from exporters.rendering import Stage, Trace, on_ground
+from exporters.rendering import Renderer, Trace, on_ground
 from exporters.viewpoint import Viewpoint, fitted
 from laban import AXES, Effort
 from smd.errors import SmdError
@@ -58,7 +58,7 @@ def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
     scene = read_scene(usd_path)
     every = list(_rows(scene, most_rows))
     rows = every[:most_rows]
-    stage = Stage(CELL_PX, [(figure.triangles, figure.point_rgb) for figure in scene.figures])
+    renderer = Renderer(CELL_PX, [(figure.triangles, figure.point_rgb) for figure in scene.figures])
     width = LABEL_PX + COLUMNS * (CELL_PX[0] + GAP_PX) + MARGIN_PX
     sheet = Image.new(
         "RGB", (width, HEADER_PX + len(rows) * (CELL_PX[1] + GAP_PX) + GAP_PX), _PAPER
@@ -67,14 +67,14 @@ def draw_filmstrip(usd_path: Path, png_path: Path, most_rows: int) -> None:
     pen.text((MARGIN_PX, 10), _header(usd_path, scene, rows, len(every)), _INK, _font(20))
     for index, row in enumerate(rows):
         top = HEADER_PX + index * (CELL_PX[1] + GAP_PX)
-        cells, measures = _draw_row(scene, row, stage)
+        cells, measures = _draw_row(scene, row, renderer)
         _label(pen, top, scene, row, measures)
         for column, (time_s, cell) in enumerate(cells):
             left = LABEL_PX + column * (CELL_PX[0] + GAP_PX)
             sheet.paste(cell, (left, top))
             pen.rectangle((left, top, left + CELL_PX[0], top + CELL_PX[1]), outline=_FRAME)
             pen.text((left + 7, top + 5), f"{time_s:.2f} s", _FAINT, _font(13))
-    stage.close()
+    renderer.close()
     sheet.save(png_path, format="PNG")
 
 
@@ -99,7 +99,7 @@ def _rows(scene: Scene, most_rows: int) -> Iterator[Row]:
 
 
 def _draw_row(
-    scene: Scene, row: Row, stage: Stage
+    scene: Scene, row: Row, renderer: Renderer
 ) -> tuple[list[tuple[float, Image.Image]], list[str]]:
     """Return a row's times and pictures, and lines that say how large what they show is."""
     figure = scene.figures[row.figure]
@@ -111,11 +111,11 @@ def _draw_row(
     drawn = path if drawn is None else drawn
     viewpoint = _viewpoint(figure, codes, np.concatenate([*bodies, on_ground(path)]))
     grid_m = 0.5 if viewpoint.width_m < WIDE_M else 1.0
-    stage.look_from(viewpoint, grid_m)
+    renderer.look_from(viewpoint, grid_m)
     pictures = []
     for column, (time_s, body) in enumerate(zip(times_s.tolist(), bodies, strict=True)):
-        stage.draw_traces(_traces(path, drawn, column / (COLUMNS - 1), row.rgb))
-        pictures.append((time_s, stage.picture({row.figure: body})))
+        renderer.draw_traces(_traces(path, drawn, column / (COLUMNS - 1), row.rgb))
+        pictures.append((time_s, renderer.picture({row.figure: body})))
     travel_m = float(np.linalg.norm(np.diff(path[:, [0, 2]], axis=0), axis=1).sum())
     lines = [
         f"body goes {travel_m:.2f} m",

@@ -17,12 +17,13 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from exporters.palette import IDLE_RGB, RGB, action_colors
+from exporters.palette import IDLE_RGB, RGB, action_colors, effort_color
 from laban import AXES, EffortCurve, RigidMotion, effort_over_time, load_effort_model
 from smd.errors import DoodleError
 from smd.files import replacing
+from smd.recognition.alphabet import Direction
 from smd.recognition.tokenizer import tokenize
-from smd.recognition.tokens import Direction, Token, TokenRun
+from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ _LANES = {"trajectory": 2.0, "moves": 0.42, "turns": 0.42, "phrase": 0.55, "effo
 _SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62, 0.2, 0.6
 _LETTER_INCHES = 0.066  # at 8 points, of most names
 _AXIS_COLORS = {"x": "#d6455d", "y": "#37a562", "z": "#3b6fd4"}
-_EFFORT_COLORS = {"time": "#475063", "weight": "#a5afbd", "space": "#7d6748", "flow": "#cdb88f"}
 _HALVES = {"": (0.08, 0.84), "upper": (0.53, 0.41), "lower": (0.06, 0.41)}
 """Where in a lane a block stands: its bottom and height as shares of the lane."""
 
@@ -314,13 +314,13 @@ def _draw_effort(axes: Any, part: Part, curves: Sequence[EffortCurve]) -> None:
             [value for _, _, value in bars],
             width=[0.8 * length / len(shown) for _, length, _ in bars],
             align="edge",
-            color=_EFFORT_COLORS[axis],
+            color=effort_color(axis),
             label=axis,
         )
     for curve in curves:
         for axis in shown:
             values = curve.values[:, AXES.index(axis)]
-            axes.plot(curve.time_s, values, color=_EFFORT_COLORS[axis], linewidth=0.9, alpha=0.75)
+            axes.plot(curve.time_s, values, color=effort_color(axis), linewidth=0.9, alpha=0.75)
     if shown:
         axes.legend(
             loc="center left",

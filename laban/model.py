@@ -13,28 +13,25 @@ from types import MappingProxyType
 import numpy as np
 
 from laban.description import described_in_steps
-from laban.effort import AXES, Effort, LabanError
+from laban.effort import AXES, POLES, Effort, LabanError
+from laban.frozen import Frozen
 from laban.motion import FloatArray, RigidMotion
 from laban.own import OwnMeasure
 from laban.reader import Reader
 from laban.steps import Steps, finished
 from laban.stillness import is_readable
 
-POLES: Mapping[str, tuple[str, str]] = MappingProxyType(
-    {
-        "time": ("sustained", "sudden"),
-        "weight": ("light", "strong"),
-        "space": ("indirect", "direct"),
-        "flow": ("free", "bound"),
-    }
-)
-"""The words for -1 and 1 on each axis."""
-
-NEUTRAL = "neutral"
-"""The word for neither pole."""
+STATE_AXES = ("time", "weight")
+"""The axes whose poles are told together as well: the two that the paper plays."""
 
 STATES = ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0))
-"""The joint states of Time and Weight that a model tells as one decision."""
+"""The joint states of `STATE_AXES` that a model tells as one decision."""
+
+
+def state_words(state: tuple[float, float]) -> tuple[str, str]:
+    """Return the words of a joint state's two poles."""
+    first, second = (POLES[axis][int(v > 0)] for axis, v in zip(STATE_AXES, state, strict=True))
+    return first, second
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +49,7 @@ class Taught:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class EffortModel:
+class EffortModel(Frozen):
     """A trained reader of Effort.
 
     Attributes
@@ -137,8 +134,7 @@ def state_of(
     if chances is None:
         return None
     best = int(np.argmax(chances))
-    time, weight = STATES[best]
-    return POLES["time"][int(time > 0)], POLES["weight"][int(weight > 0)], float(chances[best])
+    return *state_words(STATES[best]), float(chances[best])
 
 
 def confidence(value: float) -> float:

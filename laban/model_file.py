@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from laban.description import DESCRIPTION_NAMES
-from laban.effort import AXES, LabanError
+from laban.effort import AXES, NEUTRAL, POLES, LabanError
 from laban.linear import Linear, Softmax
-from laban.model import NEUTRAL, POLES, STATES, EffortModel, Taught
+from laban.model import STATES, EffortModel, Taught, state_words
 from laban.motion import FloatArray
 from laban.reader import AxisReader, Entries, Reader, StateReader
 from laban.record import Record
@@ -142,7 +142,7 @@ def _reader_record(reader: Reader) -> dict[str, Any]:
         },
         "states": states
         and {
-            "names": [_state_name(state) for state in STATES],
+            "names": [" ".join(state_words(state)) for state in STATES],
             "held_out_accuracy": states.held_out_accuracy,
             "bias": states.classifier.bias.tolist(),
         },
@@ -151,11 +151,6 @@ def _reader_record(reader: Reader) -> dict[str, Any]:
         "entries": listed,
         "products": products,
     }
-
-
-def _state_name(state: tuple[float, float]) -> str:
-    time, weight = state
-    return f"{POLES['time'][int(time > 0)]} {POLES['weight'][int(weight > 0)]}"
 
 
 def _text(value: Any, depth: int = 0) -> str:
@@ -206,7 +201,7 @@ def _reader_from(record: Record, axes: list[str], *, own: bool) -> Reader:
     if record.get("states", dict | None) is None:
         return Reader(entries, readers, reach)
     states = record.record("states")
-    expected = [_state_name(state) for state in STATES]
+    expected = [" ".join(state_words(state)) for state in STATES]
     if states.get("names", list) != expected:
         raise states.fault("names", f"expected {', '.join(expected)}")
     weight = np.array([one.numbers("states", len(STATES)) for one in weighed]).T

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from laban.effort import LabanError
+from laban.frozen import Frozen
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RigidMotion:
+class RigidMotion(Frozen):
     """A rigid body's pose at even times, and three derivatives of it.
 
     The derivatives are given, not made here: whoever knows the sensor knows its noise
@@ -23,10 +24,10 @@ class RigidMotion:
     ----------
     time_s : (n,) even steps, strictly increasing.
     position_m : (n, 3) in the world, Y up.
-    orientation_xyzw : (n, 4) unit, turns the body's frame (+Z front, +X left) into the world's.
+    orientation_xyzw : (n, 4) unit, turns the body's axes (+Z front, +X left) into the world's.
     velocity_m_s, acceleration_m_s2, jerk_m_s3 : (n, 3) of the position, in the world.
     angular_velocity_rad_s, angular_acceleration_rad_s2, angular_jerk_rad_s3 : (n, 3) in the
-        body's frame.
+        body's axes.
     """
 
     time_s: FloatArray

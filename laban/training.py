@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from laban.committee import COUNT, ENTRY_NAMES, FACTORS, PAIRS, Committee, convened, folds
 from laban.description import DESCRIPTION_NAMES, FAMILIES
-from laban.effort import AXES, LabanError
+from laban.effort import AXES, POLES, LabanError
 from laban.linear import Linear, Softmax, fit_softmax, one_blas_thread
-from laban.model import POLES, STATES, EffortModel, Taught
+from laban.model import STATE_AXES, STATES, EffortModel, Taught
 from laban.motion import FloatArray
 from laban.own import OwnMeasure
 from laban.reader import AxisReader, Entries, Reader, StateReader, known_at, reading_of
@@ -230,7 +230,7 @@ def _learned(
     if len(np.unique(state[told])) < len(STATES):
         return entries, axes, None
     own = fit_softmax(seen[told][:, _OF_STATES], state[told], STATES_RIDGE)
-    return entries, axes, _one_decision(own, axes["time"].classifier, axes["weight"].classifier)
+    return entries, axes, _one_decision(own, *(axes[axis].classifier for axis in STATE_AXES))
 
 
 def entries_of(descriptions: FloatArray, whose: IntArray, against: bool) -> Entries:
@@ -295,16 +295,17 @@ def seen_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> Floa
 
 def _states(labelled: Mapping[str, FloatArray], whose: IntArray) -> IntArray | None:
     """Return each take's joint state, -1 for none; None where too few people had each of them."""
-    if not {"time", "weight"} <= set(labelled):
+    if not set(STATE_AXES) <= set(labelled):
         return None
     state = np.full(len(whose), -1, dtype=np.int64)
-    for i, (time, weight) in enumerate(STATES):
-        state[(labelled["time"] == time) & (labelled["weight"] == weight)] = i
+    both = np.stack([labelled[axis] for axis in STATE_AXES], axis=1)
+    for i, poles in enumerate(STATES):
+        state[(both == poles).all(axis=1)] = i
     people = [len(np.unique(whose[state == i])) for i in range(len(STATES))]
     return None if min(people) < FEWEST_PERFORMERS else state
 
 
-def _one_decision(states: Softmax, time: Linear, weight: Linear) -> Softmax:
+def _one_decision(states: Softmax, first: Linear, second: Linear) -> Softmax:
     """Return the decision of the states' own weights and of both axes' log odds together.
 
     The logarithm of a state's chance is, but for a common term, half of each axis's log odds, with
@@ -314,8 +315,8 @@ def _one_decision(states: Softmax, time: Linear, weight: Linear) -> Softmax:
     own = np.zeros((len(STATES), COUNT))
     own[:, _OF_STATES] = states.weight
     return Softmax(
-        own + signs @ np.stack([time.weight, weight.weight]),
-        states.bias + signs @ np.array([time.bias, weight.bias]),
+        own + signs @ np.stack([first.weight, second.weight]),
+        states.bias + signs @ np.array([first.bias, second.bias]),
     )
 
 

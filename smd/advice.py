@@ -23,7 +23,7 @@ from smd.smoothing import smooth
 
 if TYPE_CHECKING:
     from smd.cast import Cast
-    from smd.recognition.spotting import Recognizer
+    from smd.recognition.recognizer import Recognizer
     from smd.score import Score
 
 AS_STRICT = float(np.exp(OTHERS_MARGIN[Intent.DRAWN] - OTHERS_MARGIN[Intent.FREE]))
@@ -62,7 +62,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class Advice:
     """Another way to read a recording.
 
     Attributes
@@ -111,7 +111,7 @@ def better_reading(
     asked: Asked,
     *,
     only: Collection[str] = (),
-) -> Reading | None:
+) -> Advice | None:
     """Return the reading that would have changed most, if one makes the recording readable.
 
     Nothing is tried where most of the movement is understood, or nothing moves.
@@ -145,7 +145,7 @@ def better_reading(
     whole = trials.of(doodles, best)
     if not whole.readable or 1.0 - whole.share > LEFT_OVER * (1.0 - present):
         return None
-    return Reading(tuple(best.items()), whole.phrases, whole.share)
+    return Advice(tuple(best.items()), whole.phrases, whole.share)
 
 
 def is_understood(recording: Recording, score: Score) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Protocol
 
+from laban.frozen import Frozen
 from smd.errors import LibraryError
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ class ActionLibrary(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cast:
+class Cast(Frozen):
     """A library for all performers, and libraries of their own for some.
 
     Attributes

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import DoodleError
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray, frozen_array
 from smd.geometry.rotations import sign_continuous
@@ -21,7 +22,7 @@ HEADSETS = frozenset({"camera", "head", "headset", "hmd"})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Doodle:
+class Doodle(Frozen):
     """The 6DOF trajectory of one device, in the world frame (right-handed, Y up).
 
     Attributes
@@ -121,7 +122,7 @@ class Dropout:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Recording:
+class Recording(Frozen):
     """Doodles of one or more devices on a common clock.
 
     Attributes

@@ -14,8 +14,8 @@ import numpy as np
 
 from laban import AXES, Effort, EffortModel, OwnMeasure, RigidMotion
 from laban.description import DESCRIPTION_NAMES, describe
-from laban.effort import LabanError
-from laban.model import NEUTRAL, POLES, effort_of, state_of
+from laban.effort import NEUTRAL, POLES, LabanError
+from laban.model import effort_of, state_of
 from laban.own import FEWEST_TAKES, own_measure
 from laban.reader import Reader
 from laban.stillness import is_readable, movements
@@ -62,7 +62,7 @@ class ManifestRow:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Examples:
+class TrainingSet:
     """Labelled takes, ready to learn from.
 
     Attributes
@@ -93,7 +93,7 @@ def simulated_examples(
     repeats: int = SIMULATED_REPEATS,
     seed: int = SIMULATED_SEED,
     spread: Spread = SPREAD,
-) -> Examples:
+) -> TrainingSet:
     """Return takes of simulated people (`smd.synthetic.efforts`), all axes labelled."""
     takes = fourfold_takes(people=people, repeats=repeats, seed=seed, spread=spread)
     return _examples((take, smooth(take.doodle)) for take in takes)
@@ -104,7 +104,7 @@ def windowed_examples(
     people: int = SIMULATED_PEOPLE,
     repeats: int = SIMULATED_REPEATS,
     seed: int = SIMULATED_SEED,
-) -> Examples:
+) -> TrainingSet:
     """Return `simulated_examples`, every one by two trackers, every other one through a window.
 
     The second tracker is the coarsest there is: the same movement is to read the same. The window
@@ -128,14 +128,14 @@ def windowed_examples(
     return _examples(seen())
 
 
-def _examples(takes: Iterable[tuple[LabelledTake, RigidMotion]]) -> Examples:
+def _examples(takes: Iterable[tuple[LabelledTake, RigidMotion]]) -> TrainingSet:
     """Return labelled takes as they are seen, described."""
     described, meant, performers = [], [], []
     for take, motion in takes:
         described.append(describe(motion))
         meant.append([getattr(take.effort, axis) for axis in AXES])
         performers.append(take.player)
-    return Examples(np.array(described), np.array(meant, dtype=np.float64), tuple(performers))
+    return TrainingSet(np.array(described), np.array(meant, dtype=np.float64), tuple(performers))
 
 
 def train_simulated() -> Training:
@@ -179,7 +179,7 @@ def train_manifest(
     except LabanError as error:
         raise LabanError(f"{path}: {error}") from error
     described = [describe(_only_motion(row.path, read)) for row in progress(rows)]
-    examples = Examples(np.array(described), meant, performers)
+    examples = TrainingSet(np.array(described), meant, performers)
     people = len(set(performers))
     return examples.train(trained_on=f"{len(rows)} takes of {people} performers ({path.name})")
 
@@ -255,7 +255,7 @@ def _meant(where: str, axis: str, word: str) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class EffortReading:
     """What is read of one movement.
 
     Attributes
@@ -276,7 +276,7 @@ class Reading:
 
 def recording_efforts(
     recording: Recording, model: EffortModel, own: OwnMeasure | None = None
-) -> Iterator[Reading]:
+) -> Iterator[EffortReading]:
     """Yield what is read of each movement of a recording, which rests part.
 
     Of a doodle with nothing to read there is one reading, without Effort.
@@ -285,7 +285,7 @@ def recording_efforts(
         found = _readable_movements(doodle)
         for motion in found:
             described = describe(motion)
-            yield Reading(
+            yield EffortReading(
                 doodle.device,
                 float(motion.time_s[0]),
                 float(motion.time_s[-1]),
@@ -294,7 +294,7 @@ def recording_efforts(
             )
         if not found:
             start_s, end_s = float(doodle.time_s[0]), float(doodle.time_s[-1])
-            yield Reading(doodle.device, start_s, end_s, Effort(), None)
+            yield EffortReading(doodle.device, start_s, end_s, Effort(), None)
 
 
 def performers_measure(recordings: Iterable[Recording]) -> OwnMeasure:

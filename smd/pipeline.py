@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from smd.acting.terrain import Terrain
     from smd.cast import ActionLibrary, Cast
     from smd.doodle import Doodle, Recording
-    from smd.recognition.recognizer import Span
-    from smd.recognition.spotting import Recognizer
+    from smd.recognition.detection import Detection
+    from smd.recognition.recognizer import Recognizer
     from smd.recognition.suggestions import Understood
     from smd.score import Phrase, Score, Suggestion
 
@@ -180,7 +180,9 @@ def _without_examples(cast: Cast) -> Iterator[str]:
         )
 
 
-def _phrases(played: Sequence[tuple[Span, RigidMotion]], model: EffortModel) -> Iterator[Phrase]:
+def _phrases(
+    played: Sequence[tuple[Detection, RigidMotion]], model: EffortModel
+) -> Iterator[Phrase]:
     """Yield what one performer says; times to the millisecond, as a Score's file keeps them.
 
     Each phrase's Effort is read of the phrase alone, as it is while somebody plays: what else they

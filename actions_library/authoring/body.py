@@ -10,7 +10,7 @@ import numpy as np
 
 from actions_library.authoring.body_shape import DOWN_45, WRIST, body_fields
 from actions_library.authoring.body_surface import half_surface, mirrored
-from actions_library.authoring.body_wardrobe import Piece, wardrobe
+from actions_library.authoring.body_wardrobe import Garment, wardrobe
 from actions_library.authoring.body_weights import (
     body_weights,
     strongest,
@@ -50,7 +50,7 @@ def humanoid_character(*, step_m: float = STEP_M) -> Character:
 
 
 def _worn(
-    piece: Piece, body_points: FloatArray, weights_of_body: FloatArray, skeleton: Skeleton
+    piece: Garment, body_points: FloatArray, weights_of_body: FloatArray, skeleton: Skeleton
 ) -> Mesh:
     """Return a piece's mesh, which moves as the skin below it or with the head."""
     half = half_surface(piece.field, piece.triangle_count // 2)

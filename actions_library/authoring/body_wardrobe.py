@@ -49,7 +49,7 @@ Color = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Piece:
+class Garment:
     """A solid that is worn.
 
     Attributes
@@ -68,18 +68,18 @@ class Piece:
     on_head: bool = False
 
 
-def wardrobe(body: BodyFields) -> list[Piece]:
+def wardrobe(body: BodyFields) -> list[Garment]:
     """Return all that the figure wears, made to measure."""
     return [
-        Piece("shirt", _shirt(body), 7000, (0.030, 0.200, 0.245)),
-        Piece("trousers", _trousers(body), 4400, (0.040, 0.045, 0.062)),
-        Piece("shoes", _shoes(body), 2400, (0.52, 0.110, 0.055)),
-        Piece("soles", _soles(), 2000, (0.78, 0.76, 0.72)),
-        Piece("hair", _hair(body), 2600, (0.055, 0.028, 0.016), on_head=True),
-        Piece("eyes", _eyes(body), 600, (0.012, 0.010, 0.010), on_head=True),
-        Piece("glints", _glints(body), 160, (0.9, 0.9, 0.9), on_head=True),
-        Piece("brows", _brows(body), 500, (0.055, 0.028, 0.016), on_head=True),
-        Piece("mouth", _mouth(body), 400, (0.28, 0.085, 0.065), on_head=True),
+        Garment("shirt", _shirt(body), 7000, (0.030, 0.200, 0.245)),
+        Garment("trousers", _trousers(body), 4400, (0.040, 0.045, 0.062)),
+        Garment("shoes", _shoes(body), 2400, (0.52, 0.110, 0.055)),
+        Garment("soles", _soles(), 2000, (0.78, 0.76, 0.72)),
+        Garment("hair", _hair(body), 2600, (0.055, 0.028, 0.016), on_head=True),
+        Garment("eyes", _eyes(body), 600, (0.012, 0.010, 0.010), on_head=True),
+        Garment("glints", _glints(body), 160, (0.9, 0.9, 0.9), on_head=True),
+        Garment("brows", _brows(body), 500, (0.055, 0.028, 0.016), on_head=True),
+        Garment("mouth", _mouth(body), 400, (0.28, 0.085, 0.065), on_head=True),
     ]
 
 

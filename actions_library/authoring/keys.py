@@ -38,7 +38,7 @@ class Turn:
 
 
 @dataclass(frozen=True, slots=True)
-class Arm:
+class ArmKey:
     """An arm and its hand.
 
     Attributes
@@ -82,7 +82,7 @@ class Hand:
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class LegKey:
     """A leg that touches nothing: directions (out, up, ahead) turn with the hips.
 
     Attributes
@@ -108,12 +108,12 @@ class Key:
     hips: Turn | None = None
     chest: Turn | None = None
     head: Turn | None = None
-    left_arm: Arm | None = None
-    right_arm: Arm | None = None
+    left_arm: ArmKey | None = None
+    right_arm: ArmKey | None = None
     left_hand: Hand | None = None
     right_hand: Hand | None = None
-    left_leg: Leg | None = None
-    right_leg: Leg | None = None
+    left_leg: LegKey | None = None
+    right_leg: LegKey | None = None
 
 
 PARTS = tuple(field.name for field in fields(Key) if field.name != "at")

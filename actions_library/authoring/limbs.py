@@ -7,7 +7,7 @@ from dataclasses import fields
 import numpy as np
 
 from actions_library.authoring.feet import FootPath, FootShape
-from actions_library.authoring.keys import Arm, Hand, Leg
+from actions_library.authoring.keys import ArmKey, Hand, LegKey
 from actions_library.authoring.pose import Pose
 from smd.character.ik import Limb, limb_of, two_bone_ik
 from smd.character.skeleton import Skeleton
@@ -55,11 +55,11 @@ def pose_arm(
     out
         +1 for the left arm, -1 for the right one.
     arm_numbers, hand_numbers
-        The curves of its `Arm` and `Hand` keys.
+        The curves of its `ArmKey` and `Hand` keys.
     palm
         Where the flat hand goes on the ground, which overrules both.
     """
-    arm = _columns(Arm(), arm_numbers)
+    arm = _columns(ArmKey(), arm_numbers)
     mirror = np.array([out, 1.0, 1.0])
     chest = pose.rotation[:, pose.skeleton.index("upper_chest")]
     frame = slerp(np.broadcast_to(IDENTITY_XYZW, chest.shape), chest, arm["follow"])
@@ -198,7 +198,7 @@ def pose_leg(
         ankle = ankle + free[:, None] * (pose.position[:, own[foot]] - ankle)
         turned = slerp(turned, pose.rotation[:, own[foot]], free)
         pole = normalized(pole) + free[:, None] * (normalized(knee) - normalized(pole))
-        toes = (1.0 - free) * toes + free * 0.3 * np.radians(_columns(Leg(), numbers)["point"])
+        toes = (1.0 - free) * toes + free * 0.3 * np.radians(_columns(LegKey(), numbers)["point"])
     upper_q, lower_q = two_bone_ik(limb, base, ankle, pole, softness=LEG_SOFTNESS)
     pose.set(upper, upper_q)
     pose.set(lower, lower_q)
@@ -207,7 +207,7 @@ def pose_leg(
 
 
 def _free_leg(pose: Pose, side: str, out: float, numbers: FloatArray, limb: Limb) -> None:
-    leg = _columns(Leg(), numbers)
+    leg = _columns(LegKey(), numbers)
     mirror = np.array([out, 1.0, 1.0])
     hips = pose.rotation[:, pose.skeleton.index("hips")]
     upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
@@ -222,7 +222,7 @@ def _free_leg(pose: Pose, side: str, out: float, numbers: FloatArray, limb: Limb
     pose.turn(f"{side}_toes", quaternion_about([1.0, 0.0, 0.0], np.radians(0.3 * leg["point"])))
 
 
-def _columns(part: Arm | Hand | Leg, numbers: FloatArray) -> Numbers:
+def _columns(part: ArmKey | Hand | LegKey, numbers: FloatArray) -> Numbers:
     """Return a part's numbers ``(n, c)`` by its fields' names; directions have three columns."""
     widths = {field.name: np.size(getattr(part, field.name)) for field in fields(part)}
     ends = np.cumsum(list(widths.values()))

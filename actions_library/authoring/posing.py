@@ -25,7 +25,7 @@ Numbers = dict[str, FloatArray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class GroundPath:
+class RootCourse:
     """The ground root over time: ``left_m``, ``ahead_m`` and ``yaw_rad``, each ``(n,)``."""
 
     left_m: FloatArray
@@ -37,7 +37,7 @@ def make_clip(
     skeleton: Skeleton,
     name: str,
     keys: Sequence[Key],
-    ground: GroundPath,
+    ground: RootCourse,
     *,
     left_foot: Sequence[Plant] = (),
     right_foot: Sequence[Plant] = (),
@@ -104,7 +104,7 @@ def _contacts(path: FootPath | None, sole: str, toes: str) -> dict[str, np.ndarr
     return {} if path is None else {sole: path.sole_down, toes: path.toes_down}
 
 
-def _carried(numbers: FloatArray, part: str, ground: GroundPath) -> FloatArray:
+def _carried(numbers: FloatArray, part: str, ground: RootCourse) -> FloatArray:
     """Return places that a cyclic clip's steady travel carries along: three first columns."""
     out = -1.0 if part == "right_hand" else 1.0
     numbers = numbers.copy()
@@ -117,7 +117,7 @@ def _turn(yaw_lean_tilt_deg: FloatArray) -> FloatArray:
     return quaternion_from_euler("YXZ", np.radians(yaw_lean_tilt_deg))
 
 
-def _stand_on_ground(pose: Pose, ground: GroundPath) -> None:
+def _stand_on_ground(pose: Pose, ground: RootCourse) -> None:
     pose.rotation[:, 0] = quaternion_about([0.0, 1.0, 0.0], ground.yaw_rad)
     zero = np.zeros_like(ground.left_m)
     pose.position[:, 0] = np.column_stack([ground.left_m, zero, ground.ahead_m])

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.poses import Poses
@@ -18,7 +19,7 @@ from smd.score import Phrase
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Actor:
+class Actor(Frozen):
     """A character, and what it does.
 
     Attributes
@@ -51,7 +52,7 @@ class Actor:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Performance:
+class Performance(Frozen):
     """Everything that is on stage, at an even rate.
 
     Attributes

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import TransferError
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray, frozen_array
 
@@ -23,7 +24,7 @@ _MOST_PAIRS = 20_000_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Terrain:
+class Terrain(Frozen):
     """A surface made of triangles, in metres, +Y up.
 
     Attributes

@@ -19,7 +19,7 @@ from smd.formats.frame import Mount
 from smd.geometry.rotations import multiply, rotate
 from smd.recognition import Recognizer
 from smd.recognition.acceptance import Intent
-from smd.recognition.recognizer import Span
+from smd.recognition.detection import Detection
 
 KEPT_S = 60.0
 """So much movement is kept for a phrase that is not decided yet."""
@@ -36,7 +36,7 @@ class Decided(NamedTuple):
     """
 
     device: str
-    span: Span
+    span: Detection
     effort: Effort
 
 
@@ -141,7 +141,7 @@ class _Follower:
         while self._smoothed[0].time_s[-1] < motion.time_s[-1] - KEPT_S:
             self._smoothed.popleft()
 
-    def _decided(self, span: Span) -> Decided:
+    def _decided(self, span: Detection) -> Decided:
         """Return a span with its Effort."""
         parts = [
             motion

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
@@ -15,7 +16,7 @@ MAX_INFLUENCES = 4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
+class Mesh(Frozen):
     """A triangle mesh bound to a skeleton.
 
     Attributes

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray, frozen_array
@@ -16,7 +17,7 @@ STAGES = ("preparation", "anticipation", "execution", "follow_through", "transit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Clip:
+class Clip(Frozen):
     """Local poses at an even rate.
 
     Joint 0 is the *ground root*: it stands on the ground under the body and carries travel and

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from laban.frozen import Frozen
 from smd.character.kinematics import forward_kinematics
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -25,7 +26,7 @@ _PARALLEL = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Limb:
+class Limb(Frozen):
     """Two bones that bend one way: thigh and shin, or upper arm and forearm.
 
     Attributes

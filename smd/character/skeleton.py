@@ -7,6 +7,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 
@@ -14,7 +15,7 @@ Role = Literal["root", "spine", "intermediate", "end_effector"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Skeleton:
+class Skeleton(Frozen):
     """Joints in a tree, parents before children.
 
     Attributes

@@ -119,10 +119,10 @@ def table(score: Score, *, others: int = 0) -> list[str]:
 
 def row(start_s: float, end_s: float, action: str, confidence: float, effort: Effort) -> str:
     """Return one phrase as a line."""
+    from laban import AXES
+
     efforts = " ".join(
-        f"{axis} {value:+.2f}"
-        for axis in ("time", "weight", "space", "flow")
-        if (value := getattr(effort, axis)) is not None
+        f"{axis} {value:+.2f}" for axis in AXES if (value := getattr(effort, axis)) is not None
     )
     return (
         f"{start_s:8.2f} – {end_s:7.2f} s  {action:<16} confidence {confidence:.2f}  {efforts}"

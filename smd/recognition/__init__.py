@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from smd.recognition.matching import Match as Match
+    from smd.recognition.recognizer import Recognizer as Recognizer
     from smd.recognition.rehearsal import add_examples as add_examples
-    from smd.recognition.spotting import Recognizer as Recognizer
     from smd.recognition.teaching import learn_action as learn_action
 
 __all__ = ["Match", "Recognizer", "add_examples", "learn_action"]
 
 _HOMES = {
     "Match": "matching",
-    "Recognizer": "spotting",
+    "Recognizer": "recognizer",
     "add_examples": "rehearsal",
     "learn_action": "teaching",
 }

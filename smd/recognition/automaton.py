@@ -8,19 +8,20 @@ from functools import lru_cache
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import PatternError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.token_costs import TokenCosts, codes_of, unit_costs
-from smd.recognition.tokens import Token
+from smd.recognition.token_costs import TokenCosts, unit_costs
+from smd.recognition.tokens import Token, codes_of
 
 FAR = 1 << 30
 """More edits than any string needs: no way leads there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Automaton:
+class Automaton(Frozen):
     """A pattern compiled for measuring: its states, and how many tokens lie between them.
 
     Each occurrence of a token in the pattern is a position (Glushkov's construction [1]_), and

@@ -13,7 +13,7 @@ from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import matrix_from_quaternion, quaternion_about, sign_continuous
 from smd.recognition.alignment import align, distances
 from smd.recognition.embedding import (
-    Poses,
+    PoseSequence,
     embed_poses,
     heading_frame,
     sample_poses,
@@ -90,7 +90,7 @@ def average_doodle(
     return Doodle(time_s, reference.position_m, reference.orientation_xyzw, doodles[0].device)
 
 
-def _upright(poses: Poses) -> Poses:
+def _upright(poses: PoseSequence) -> PoseSequence:
     """Return poses around the origin, facing ahead."""
     return seen_from(poses, heading_frame(poses))
 
@@ -110,8 +110,11 @@ def _medoid(courses: Sequence[FloatArray]) -> int:
 
 
 def _mean_along(
-    reference: Poses, examples: Sequence[Poses], duration_s: FloatArray, figure_height_m: float
-) -> tuple[Poses, FloatArray]:
+    reference: PoseSequence,
+    examples: Sequence[PoseSequence],
+    duration_s: FloatArray,
+    figure_height_m: float,
+) -> tuple[PoseSequence, FloatArray]:
     """Return the mean pose and the mean time of what belongs to each pose of the reference."""
     n = len(reference.position_m)
     ours = embed_poses(reference, metres_per_radian=figure_height_m)
@@ -128,12 +131,12 @@ def _mean_along(
         np.add.at(spread, mine, share[:, None, None] * q[:, :, None] * q[:, None, :])
     # The unit quaternion whose squared dot products with all of them add up to most: signs drop.
     mean_xyzw = sign_continuous(np.linalg.eigh(spread)[1][:, :, -1])
-    return Poses(position / len(examples), mean_xyzw), time_s / len(examples)
+    return PoseSequence(position / len(examples), mean_xyzw), time_s / len(examples)
 
 
 def _turned_towards(
-    reference: Poses, example: Poses, path: np.ndarray, figure_height_m: float
-) -> Poses:
+    reference: PoseSequence, example: PoseSequence, path: np.ndarray, figure_height_m: float
+) -> PoseSequence:
     """Return an example, turned about up so that paired poses are nearest in least squares."""
     mine, other = path.T
     matched = np.concatenate(
@@ -150,11 +153,11 @@ def _turned_towards(
     return seen_from(example, quaternion_about(UP, -np.arctan2(b, a)))
 
 
-def _even(poses: Poses, time_s: FloatArray, samples: int) -> Poses:
+def _even(poses: PoseSequence, time_s: FloatArray, samples: int) -> PoseSequence:
     """Return poses at even times; where time stands still, the first of the poses counts."""
     kept = np.flatnonzero(np.diff(time_s, prepend=-np.inf) > 1e-9)
     at_s = np.linspace(time_s[0], time_s[-1], samples)
-    return Poses(
+    return PoseSequence(
         interpolate_linear(time_s[kept], poses.position_m[kept], at_s),
         interpolate_rotation(time_s[kept], poses.orientation_xyzw[kept], at_s),
     )

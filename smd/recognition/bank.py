@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.recognition.automaton import FAR, compile_automaton
 from smd.recognition.pattern import Pattern
-from smd.recognition.token_costs import TokenCosts, codes_of, unit_costs
-from smd.recognition.tokens import Token
+from smd.recognition.token_costs import TokenCosts, unit_costs
+from smd.recognition.tokens import Token, codes_of
 
 
 class Front(NamedTuple):
@@ -27,7 +28,7 @@ class Front(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bank:
+class Bank(Frozen):
     """The automata of a library side by side: s states in all, action after action.
 
     Attributes
@@ -71,8 +72,7 @@ class Bank:
         kinds, kind = np.unique(codes, return_inverse=True)
         if not len(self.first):
             return np.zeros((len(codes), 0))
-        each = self.token_costs.matrix[np.ix_(kinds, self.tokens)]
-        return np.asarray(np.minimum.reduceat(each, self.first, axis=1)[kind])
+        return self.token_costs.to_nearest(kinds, self.tokens, self.first)[kind]
 
     def nowhere(self) -> Front:
         """Return the front before any token."""

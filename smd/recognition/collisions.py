@@ -18,7 +18,7 @@ from smd.recognition.languages import (
     word_without,
 )
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import UNLIKE, token_distances
+from smd.recognition.progressive_alignment import UNLIKE, token_distances
 from smd.recognition.tokens import Token
 
 Kind = Literal["equal", "contained", "shared", "part", "near"]

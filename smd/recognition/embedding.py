@@ -28,7 +28,7 @@ METRES_PER_RADIAN = DEFAULT_FIGURE_HEIGHT_M
 as visibly as one that turns by a radian (the tokenizer weighs them alike)."""
 
 
-class Poses(NamedTuple):
+class PoseSequence(NamedTuple):
     """Where a prop is and how it is turned, over time.
 
     ``position_m (…, n, 3)`` and ``orientation_xyzw (…, n, 4)``; leading axes: several gestures.
@@ -38,7 +38,7 @@ class Poses(NamedTuple):
     orientation_xyzw: FloatArray
 
 
-def sample_poses(source: Doodle | RigidMotion, samples: int = SAMPLES) -> Poses:
+def sample_poses(source: Doodle | RigidMotion, samples: int = SAMPLES) -> PoseSequence:
     """Return poses at even times from the first sample to the last: a gesture at any speed.
 
     Parameters
@@ -49,13 +49,13 @@ def sample_poses(source: Doodle | RigidMotion, samples: int = SAMPLES) -> Poses:
         How many poses, at least one.
     """
     at_s = np.linspace(source.time_s[0], source.time_s[-1], samples)
-    return Poses(
+    return PoseSequence(
         interpolate_linear(source.time_s, source.position_m, at_s),
         interpolate_rotation(source.time_s, source.orientation_xyzw, at_s),
     )
 
 
-def heading_frame(poses: Poses) -> FloatArray:
+def heading_frame(poses: PoseSequence) -> FloatArray:
     """Return the frame whose up is the world's and whose front is the prop's, ``(…, 4)``.
 
     Seen from above, the front is the mean of the poses' fronts, as long as they are; poses that
@@ -70,29 +70,29 @@ def heading_frame(poses: Poses) -> FloatArray:
     return quaternion_about([0.0, 1.0, 0.0], heading)
 
 
-def seen_from(poses: Poses, frame_xyzw: FloatArray) -> Poses:
+def seen_from(poses: PoseSequence, frame_xyzw: FloatArray) -> PoseSequence:
     """Return poses in a turned frame, ``(…, 4)``, the mean of the positions at its origin."""
     frame_from_world = inverse(frame_xyzw)[..., None, :]
     position = rotate(frame_from_world, poses.position_m)
-    return Poses(
+    return PoseSequence(
         position - position.mean(axis=-2, keepdims=True),
         multiply(frame_from_world, poses.orientation_xyzw),
     )
 
 
-def extent_m(poses: Poses) -> FloatArray:
+def extent_m(poses: PoseSequence) -> FloatArray:
     """Return the root mean square distance of the positions from their mean, ``(…)``."""
     spread = poses.position_m - poses.position_m.mean(axis=-2, keepdims=True)
     return np.sqrt(np.mean(np.sum(spread * spread, axis=-1), axis=-1))
 
 
-def scaled(poses: Poses, factor: ArrayLike) -> Poses:
+def scaled(poses: PoseSequence, factor: ArrayLike) -> PoseSequence:
     """Return poses with the positions larger by a factor, ``(…)``."""
     by = np.asarray(factor, dtype=np.float64)[..., None, None]
-    return Poses(poses.position_m * by, poses.orientation_xyzw)
+    return PoseSequence(poses.position_m * by, poses.orientation_xyzw)
 
 
-def embed_poses(poses: Poses, *, metres_per_radian: float = METRES_PER_RADIAN) -> FloatArray:
+def embed_poses(poses: PoseSequence, *, metres_per_radian: float = METRES_PER_RADIAN) -> FloatArray:
     """Return points ``(…, n, 12)`` whose squared distance adds that of positions and of rotations.
 
     The last nine numbers are the rotation matrix times ``metres_per_radian / sqrt(2)``, since the

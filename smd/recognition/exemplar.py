@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.errors import DoodleError
 from smd.geometry.arrays import BoolArray, FloatArray, frozen_array
 from smd.recognition.alignment import distance_table
@@ -48,7 +49,7 @@ Ownership: TypeAlias = bool | Sequence[int]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Exemplar:
+class Exemplar(Frozen):
     """What verification remembers of an action's examples.
 
     Where some examples are the performer's own and some are others', an own one counts for more

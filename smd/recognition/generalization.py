@@ -6,7 +6,13 @@ from collections.abc import Sequence
 
 from smd.recognition import pattern as ast
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import UNLIKE, Place, Stroke, laid_side_by_side, token_distances
+from smd.recognition.progressive_alignment import (
+    UNLIKE,
+    Column,
+    WeightedToken,
+    progressively_aligned,
+    token_distances,
+)
 from smd.recognition.simplification import Group, simplified
 from smd.recognition.tokens import STILL, Token
 
@@ -18,27 +24,27 @@ ENOUGH_EXAMPLES = 3
 """From so many examples on, what all of them have is meant, however small."""
 
 MOST_OPTIONAL = 3
-"""Optional places between two mandatory ones; more become one group that has all their tokens."""
+"""Optional columns between two mandatory ones; more become one group that has all their tokens."""
 
 
-def generalized(examples: Sequence[Sequence[Stroke]]) -> tuple[Group, ...]:
+def generalized(examples: Sequence[Sequence[WeightedToken]]) -> tuple[Group, ...]:
     """Return what all of several sequences read through, from left to right.
 
     Section 4.3 of the paper [1]_, with one change: it pairs the mandatory tokens of the examples
     by their index, so that one token too many in one example shifts all that follow. Here
-    sequences are laid side by side so that like tokens stand at one place. A place where every
+    sequences are aligned so that like tokens stand in one column. A column where every
     example has a token, and which is more than a trifle, becomes a mandatory group of the tokens
-    that stand there; the places between become optional groups, in their order.
+    that stand there; the columns between become optional groups, in their order.
 
     Parameters
     ----------
     examples
-        At least one, none empty. The first one is where laying side by side begins.
+        At least one, none empty. The first one is where the alignment begins.
 
     Returns
     -------
     tuple of Group
-        Accepts every example; empty if they share no place that must occur.
+        Accepts every example; empty if they share no column that must occur.
 
     References
     ----------
@@ -46,31 +52,31 @@ def generalized(examples: Sequence[Sequence[Stroke]]) -> tuple[Group, ...]:
     """
     groups: list[Group] = []
     between: list[Group] = []
-    for place in laid_side_by_side(examples):
-        if _is_mandatory(place):
-            groups += [*_few(between), Group(place.tokens, optional=False)]
+    for column in progressively_aligned(examples):
+        if _is_mandatory(column):
+            groups += [*_few(between), Group(column.tokens, optional=False)]
             between = []
         else:
-            between.append(Group(place.tokens, optional=True))
+            between.append(Group(column.tokens, optional=True))
     return simplified([*groups, *_few(between)]) if groups else ()
 
 
-def ways_of(examples: Sequence[Sequence[Stroke]]) -> list[tuple[Group, ...]]:
-    """Return the ways in which a gesture is drawn: as few as have a mandatory place each.
+def ways_of(examples: Sequence[Sequence[WeightedToken]]) -> list[tuple[Group, ...]]:
+    """Return the ways in which a gesture is drawn: as few as have a mandatory column each.
 
-    One, as `generalized` gives it, where all examples share a place. If not, those that share the
+    One, as `generalized` gives it, where all examples share a column. If not, those that share the
     fullest one (the larger movement, if several are as full) are taken apart from the others, and
     so on: each example is accepted by one of the ways.
     """
     groups = generalized(examples)
     if groups:
         return [groups]
-    places = laid_side_by_side(examples)
-    fullest = max(places, key=lambda place: (_count(place) * _moves(place), place.weight))
-    parts: tuple[list[Sequence[Stroke]], list[Sequence[Stroke]]] = ([], [])
-    for example, stroke in zip(examples, fullest.strokes, strict=True):
+    columns = progressively_aligned(examples)
+    fullest = max(columns, key=lambda column: (_count(column) * _moves(column), column.weight))
+    parts: tuple[list[Sequence[WeightedToken]], list[Sequence[WeightedToken]]] = ([], [])
+    for example, stroke in zip(examples, fullest.entries, strict=True):
         parts[stroke is None].append(example)
-    if not all(parts):  # a place all have, but a trifle: the first example goes alone
+    if not all(parts):  # a column all have, but a trifle: the first example goes alone
         parts = ([examples[0]], list(examples[1:]))
     return [way for part in parts for way in ways_of(part)]
 
@@ -89,13 +95,13 @@ def _sequence(groups: Sequence[Group]) -> ast.Node:
     return ast.Sequence(tuple(parts))
 
 
-def odd_one_out(examples: Sequence[Sequence[Stroke]]) -> int:
+def odd_one_out(examples: Sequence[Sequence[WeightedToken]]) -> int:
     """Return the example whose largest movement is least like those of the others."""
     main = [main_token(strokes) for strokes in examples]
     return int(token_distances(main, main).sum(axis=1).argmax())
 
 
-def stranger(examples: Sequence[Sequence[Stroke]]) -> int | None:
+def stranger(examples: Sequence[Sequence[WeightedToken]]) -> int | None:
     """Return an example none of whose movements is like one of any other example, if there is one.
 
     The one whose largest movement is least like those of the others comes first.
@@ -109,27 +115,27 @@ def stranger(examples: Sequence[Sequence[Stroke]]) -> int | None:
     return None
 
 
-def main_token(strokes: Sequence[Stroke]) -> Token:
+def main_token(strokes: Sequence[WeightedToken]) -> Token:
     """Return the token of a sequence's largest movement."""
     return max(strokes, key=lambda stroke: stroke.weight).token
 
 
-def _count(place: Place) -> int:
-    """Return how many sequences have something at a place."""
-    return sum(stroke is not None for stroke in place.strokes)
+def _count(column: Column) -> int:
+    """Return how many sequences have something at a column."""
+    return sum(entry is not None for entry in column.entries)
 
 
-def _moves(place: Place) -> bool:
-    """Tell whether what stands at a place moves."""
-    return STILL not in place.tokens
+def _moves(column: Column) -> bool:
+    """Tell whether what stands at a column moves."""
+    return STILL not in column.tokens
 
 
-def _is_mandatory(place: Place) -> bool:
-    """Tell whether what stands at a place must occur."""
-    if not place.is_full or STILL in place.tokens:
+def _is_mandatory(column: Column) -> bool:
+    """Tell whether what stands at a column must occur."""
+    if not column.is_full or STILL in column.tokens:
         return False
-    agreed = len(place.tokens) == 1 and len(place.strokes) >= ENOUGH_EXAMPLES
-    return agreed or place.weight >= MANDATORY_SHARE
+    agreed = len(column.tokens) == 1 and len(column.entries) >= ENOUGH_EXAMPLES
+    return agreed or column.weight >= MANDATORY_SHARE
 
 
 def _few(optional: list[Group]) -> list[Group]:

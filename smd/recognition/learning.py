@@ -10,7 +10,7 @@ from smd.errors import DoodleError, LearningError
 from smd.recognition.average import average_doodle
 from smd.recognition.generalization import generalized, main_token, pattern_of, stranger, ways_of
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import Stroke
+from smd.recognition.progressive_alignment import WeightedToken
 from smd.recognition.simplification import Group
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun
@@ -154,12 +154,12 @@ def _part(doodle: Doodle, start_s: float, end_s: float) -> Doodle:
     return doodle.selected(kept)
 
 
-def _strokes(runs: Sequence[TokenRun]) -> list[Stroke]:
+def _strokes(runs: Sequence[TokenRun]) -> list[WeightedToken]:
     """Return the tokens of runs with their share of the largest movement."""
     extent = [run.travel_heights + run.turn_rad for run in runs]
     largest = max(extent, default=0.0) or 1.0
     return [
-        Stroke(run.token, max(each / largest, LEAST_WEIGHT))
+        WeightedToken(run.token, max(each / largest, LEAST_WEIGHT))
         for run, each in zip(runs, extent, strict=True)
     ]
 
@@ -172,7 +172,7 @@ def _mandatory(ways: Sequence[Sequence[Group]]) -> tuple[frozenset[Token], ...]:
 
 
 def _nothing_in_common(
-    names: Sequence[str], examples: Sequence[Sequence[Stroke]], odd: int
+    names: Sequence[str], examples: Sequence[Sequence[WeightedToken]], odd: int
 ) -> LearningError:
     """Return the error that names the example that is like no other."""
     others = sorted({str(main_token(s)) for i, s in enumerate(examples) if i != odd})

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from laban import RigidMotion
+from laban.frozen import Frozen
 from smd.errors import DoodleError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.geometry.rotations import rotate
@@ -33,12 +34,12 @@ _BISQUARE = 4.685  # Tukey's: 95 % efficient where errors are normal
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LeverArm:
+class LeverArm(Frozen):
     """Where a prop's centre is, seen from its tracker.
 
     Attributes
     ----------
-    lever_m : (3,) from the tracker to the centre, in the tracker's frame.
+    lever_m : (3,) from the tracker to the centre, along the tracker's axes.
     error_m : (3,) standard error of each component.
     residual_m_s : speed of the centre that turning does not explain, root mean square.
     tracker_wander_m, centre_wander_m : distance of tracker and centre from their mean place,

@@ -1,181 +1,257 @@
-"""Recognizer: from runs of tokens to spans of actions."""
+"""Recognizer: which actions a doodle draws, and when."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
 from laban import RigidMotion
-from smd.geometry.arrays import FloatArray
-from smd.recognition.bank import Bank, compile_library, least_costs_of_parts
-from smd.recognition.costs import DEFAULT_COSTS, Costs, run_costs
-from smd.recognition.pattern import Pattern
-from smd.recognition.segmentation import Segment, Segmenter, least_cost_segments
-from smd.recognition.tokens import TokenRun
+from smd.doodle import DEFAULT_FIGURE_HEIGHT_M, Doodle
+from smd.recognition.acceptance import Intent
+from smd.recognition.action import Action
+from smd.recognition.choosing import Fits, chosen_stretches
+from smd.recognition.compiled_actions import HasActions, compile_actions
+from smd.recognition.costs import DEFAULT_COSTS, Costs
+from smd.recognition.detection import Detection
+from smd.recognition.matching import Match
+from smd.recognition.segmentation import Segment
+from smd.recognition.streaming import RecognitionStream
+from smd.recognition.token_costs import TokenCosts
+from smd.recognition.token_spotter import TokenSpotter
+from smd.recognition.tokenizer import tokenize
+from smd.recognition.tokens import STILL, TokenRun
+from smd.recognition.weighing import Terms, matches
+from smd.smoothing import smooth
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
-    """A stretch of runs that is one action.
-
-    Attributes
-    ----------
-    action : its name.
-    first_run, last_run : runs ``first_run`` (included) to ``last_run`` (excluded).
-    start_s, end_s : where the first of them begins and the last one ends.
-    distance : from the runs to the action's pattern, in edits.
-    confidence : in [0, 1], see `recognize`.
-    alternatives : the other actions and their distances, nearest first.
-    """
-
-    action: str
-    first_run: int
-    last_run: int
-    start_s: float
-    end_s: float
-    distance: float
-    confidence: float
-    alternatives: tuple[tuple[str, float], ...]
-
-
-def recognize(
-    runs: Sequence[TokenRun],
-    library: Bank | Mapping[str, Pattern],
-    *,
-    costs: Costs = DEFAULT_COSTS,
-    segments: Segmenter = least_cost_segments,
-) -> tuple[Span, ...]:
-    """Find the actions in a tokenized doodle.
-
-    The runs are cut into actions and unexplained rest, by default at the least total cost: every
-    action costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run
-    in proportion to the movement in it, unexplained stillness nothing. Little or aimless movement
-    is therefore cheaper to leave alone than to explain. An action then takes in the small runs
-    that lead into it or out of it.
-
-    The distance is Levenshtein's (section 4.2 of the paper [1]_) with two prices that depend on
-    the run: leaving a run out costs less than one edit when there is little movement in it, and
-    taking it for the token that it is costs something when it is faint.
-
-    The confidence weighs the chosen action against the other ones and against nothing, over the
-    same runs: with the cost d of each it is ``exp(-s d_chosen) / sum(exp(-s d))``, where s is
-    ``costs.sharpness``, and nothing costs its unexplained runs less ``costs.action``. It ranks
-    how clear-cut spans are; it is not a measured probability.
+class Recognizer:
+    """Finds a library's actions in doodles.
 
     Parameters
     ----------
-    runs
-        Of one doodle, from `tokenize`.
-    library
-        Patterns by action, or the bank they were compiled to; where two explain a span equally
-        well, the earlier one is taken.
+    actions
+        The actions, or a library that has them; those without a pattern are not looked for.
+    figure_height_m
+        Height of the figurine that the prop stands for.
     costs
-        What is weighed against what.
-    segments
-        How the runs are cut: `least_cost_segments`, or the paper's `longest_match_segments`.
-
-    Returns
-    -------
-    tuple of Span
-        In time order, without overlap; each begins and ends with a moving run.
-
-    References
-    ----------
-    .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019.
-    """
-    bank = library if isinstance(library, Bank) else compile_library(library)
-    whole = with_loose_ends(segments(bank, runs, costs), runs)
-    return tuple(spans_of(bank, runs, whole, costs))
-
-
-@dataclass(frozen=True, slots=True)
-class TokenSpotter:
-    """Finds a bank's actions as `recognize` does, for `smd.recognition.streaming`.
-
-    Attributes
-    ----------
-    bank : the patterns, compiled.
-    costs : what is weighed against what.
+        What the tokens of a span are weighed by.
+    token_costs
+        What it costs to take one token for another; the paper's unit costs if absent.
+    tolerance
+        Factor on what every action may cost: below 1 more is rejected, above it less.
+    intent
+        Whether movement is meant, whatever doodles say; by default a doodle that says when the
+        user drew was drawn, and any other is free.
     """
 
-    bank: Bank
-    costs: Costs = DEFAULT_COSTS
+    def __init__(
+        self,
+        actions: HasActions | Iterable[Action],
+        *,
+        figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
+        costs: Costs = DEFAULT_COSTS,
+        token_costs: TokenCosts | None = None,
+        tolerance: float = 1.0,
+        intent: Intent | None = None,
+    ) -> None:
+        self.intent = intent
+        self._actions = compile_actions(
+            actions,
+            figure_height_m=figure_height_m,
+            costs=costs,
+            token_costs=token_costs,
+            tolerance=tolerance,
+        )
+        self._tokens = TokenSpotter(self._actions.bank, costs)  # where there are no examples
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The actions that are looked for."""
+        return self._actions.names
+
+    def rank(self, doodle: Doodle) -> list[Match]:
+        """Weigh every action, and none, for a doodle that holds one gesture, the best first.
+
+        Rest before and after the gesture is no part of it. A doodle that never moves is none. That
+        it holds a gesture says that it was meant, unless the recognizer's intent is another.
+
+        Raises
+        ------
+        DoodleError
+            If the doodle is too short to be smoothed.
+        """
+        motion = smooth(doodle)
+        runs = self.runs_of(doodle, motion)
+        moving = [i for i, run in enumerate(runs) if run.token != STILL]
+        if not moving or not self.names:
+            return [Match(None, 0.0, 1.0)]
+        whole = (moving[0], moving[-1] + 1)
+        intent = self.intent or Intent.DRAWN
+        return matches(self._actions, motion, runs, [whole], intent, beyond=np.inf)[0]
+
+    def weigh(
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        spans_s: Sequence[tuple[float, float]],
+        intent: Intent | None = None,
+    ) -> list[list[Match]]:
+        """Weigh every action, and none, for stretches of a motion; for each the best first.
+
+        Parameters
+        ----------
+        motion, runs
+            Of one doodle.
+        intent
+            Whether the movement is meant; by default the recognizer's own, or free.
+        spans_s
+            When each stretch begins and ends; it is weighed from the start of the run that is
+            there to the end of the one that is. What costs more than `WORTH_NAMING` times what it
+            may is not weighed to the end, and infinite.
+        """
+        starts_s = np.array([run.start_s for run in runs])
+        stretches = []
+        for start_s, end_s in spans_s:
+            first = max(int(np.searchsorted(starts_s, start_s + 1e-6, side="right")) - 1, 0)
+            last = max(int(np.searchsorted(starts_s, end_s - 1e-6)), first + 1)
+            stretches.append((first, last))
+        if not stretches or not self.names:
+            return [[Match(None, 0.0, 1.0)] for _ in stretches]
+        return matches(self._actions, motion, runs, stretches, self._meant(intent))
+
+    def spot(self, doodle: Doodle) -> list[Detection]:
+        """Find the actions in a doodle, in time order.
+
+        Raises
+        ------
+        DoodleError
+            If the doodle is too short to be smoothed.
+        """
+        motion = smooth(doodle)
+        return self.spot_runs(motion, self.runs_of(doodle, motion), self.intent_of(doodle))
+
+    def stream(
+        self,
+        listener: Callable[[RigidMotion], None] | None = None,
+        *,
+        intent: Intent | None = None,
+    ) -> RecognitionStream:
+        """Return what finds the actions while a doodle is being drawn, sample by sample.
+
+        The listener is called with each piece of smoothed motion. Whether the movement is meant is
+        said once; by default it is the recognizer's own intent, or free.
+        """
+        return RecognitionStream(
+            _Remembering(self, intent),
+            figure_height_m=self._actions.figure_height_m,
+            listener=listener,
+        )
+
+    def runs_of(self, doodle: Doodle, motion: RigidMotion) -> tuple[TokenRun, ...]:
+        """Return the tokens of a doodle's smoothed motion; still where it was not drawn."""
+        drawing = doodle.drawing_at(motion.time_s)
+        return tokenize(motion, figure_height_m=self._actions.figure_height_m, drawing=drawing)
+
+    def intent_of(self, doodle: Doodle) -> Intent:
+        """Return whether the movement of a doodle is taken to be meant."""
+        said = Intent.FREE if doodle.drawing is None else Intent.DRAWN
+        return self.intent or said
+
+    def spot_runs(
+        self, motion: RigidMotion, runs: Sequence[TokenRun], intent: Intent | None = None
+    ) -> list[Detection]:
+        """Find the actions in a motion that is cut into tokens already."""
+        return self.named(motion, runs, self.chosen(motion, runs, intent), intent)
+
+    def chosen(
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        intent: Intent | None = None,
+        known: Fits | None = None,
+    ) -> list[Segment]:
+        """Choose the stretches of runs that are actions, in time order.
+
+        By examples (`choosing.chosen_stretches`), or by tokens alone where no action has any; by
+        default the intent is the recognizer's own, or free.
+        """
+        if not self._actions.has_examples.any():
+            return self._tokens.chosen(motion, runs)
+        known = {} if known is None else known
+        return chosen_stretches(self._actions, motion, runs, self._meant(intent), known)
+
+    def named(
+        self,
+        motion: RigidMotion,
+        runs: Sequence[TokenRun],
+        segments: Sequence[Segment],
+        intent: Intent | None = None,
+        known: Terms | None = None,
+    ) -> list[Detection]:
+        """Return the detections of chosen stretches, with what else each could be.
+
+        Each is of the action that it costs least to see there, of those that may cost so much.
+        What they are weighed by is taken from ``known`` where it is there, and else written down.
+        """
+        if not self._actions.has_examples.any():
+            return self._tokens.named(motion, runs, segments)
+        stretches = [(one.first, one.last) for one in segments]
+        weighed = matches(self._actions, motion, runs, stretches, self._meant(intent), known=known)
+        return [
+            _detection(self._actions.names[one.index], one, runs, ranked)
+            for one, ranked in zip(segments, weighed, strict=True)
+        ]
+
+    def _meant(self, intent: Intent | None) -> Intent:
+        """Return the intent that is said, by the call or else by the recognizer, or free."""
+        return intent or self.intent or Intent.FREE
+
+
+class _Remembering:
+    """A recognizer that is asked again and again about a doodle as it grows."""
+
+    def __init__(self, recognizer: Recognizer, intent: Intent | None) -> None:
+        self._recognizer = recognizer
+        self._intent = intent
+        self._fits: Fits = {}
+        self._terms: Terms = {}
 
     def chosen(self, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Segment]:
-        """Return the stretches of runs that are actions; the motion is not looked at."""
-        return with_loose_ends(least_cost_segments(self.bank, runs, self.costs), runs)
+        """Choose as the recognizer does, and forget what is over."""
+        begin_s = motion.time_s[0]
+        self._fits = {each: fit for each, fit in self._fits.items() if each[0] >= begin_s}
+        self._terms = {each: terms for each, terms in self._terms.items() if each[0] >= begin_s}
+        return self._recognizer.chosen(motion, runs, self._intent, self._fits)
 
     def named(
         self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
-    ) -> list[Span]:
-        """Return the spans of stretches of runs; the motion is not looked at."""
-        return spans_of(self.bank, runs, segments, self.costs)
+    ) -> list[Detection]:
+        """Name as the recognizer does."""
+        return self._recognizer.named(motion, runs, segments, self._intent, self._terms)
 
 
-def spans_of(
-    bank: Bank, runs: Sequence[TokenRun], segments: Sequence[Segment], costs: Costs
-) -> list[Span]:
-    """Return the spans of segments that have their loose ends, weighed by tokens alone."""
-    prices = run_costs(runs, costs)
-    read = prices.of_reading(bank, runs)
-    parts = [(one.first, one.last) for one in segments]
-    distances = least_costs_of_parts(bank, parts, read=read, skip=prices.skip)
-    spans = []
-    for one, distance in zip(segments, distances, strict=True):
-        nothing = float(prices.unexplained[one.first : one.last].sum()) - costs.action
-        nearest = np.argsort(distance, kind="stable").tolist()
-        spans.append(
-            Span(
-                action=bank.names[one.index],
-                first_run=one.first,
-                last_run=one.last,
-                start_s=runs[one.first].start_s,
-                end_s=runs[one.last - 1].end_s,
-                distance=float(distance[one.index]),
-                confidence=_share(one.index, np.append(distance, nothing), costs.sharpness),
-                alternatives=tuple(
-                    (bank.names[i], float(distance[i])) for i in nearest if i != one.index
-                ),
-            )
-        )
-    return spans
+def _detection(
+    chosen: str, whole: Segment, runs: Sequence[TokenRun], ranked: Sequence[Match]
+) -> Detection:
+    """Return the detection of a stretch; ``ranked`` weighs all actions, the best first, for it.
 
-
-def _share(chosen: int, cost: FloatArray, sharpness: float) -> float:
-    """Return the weight of one explanation among all."""
-    return float(1.0 / np.exp(-sharpness * (cost - cost[chosen])).sum())
-
-
-def with_loose_ends(segments: Sequence[Segment], runs: Sequence[TokenRun]) -> list[Segment]:
-    """Return the segments with the unexplained runs beside them that belong to them.
-
-    A hand that sets out or arrives is slow, and its direction uncertain: a run that goes the way
-    of the one it leads to, and is not the largest, is of one movement with the rest.
+    It is of the best action that may cost so much, else of the one that it was chosen as.
     """
-    grown: list[Segment] = []
-    for i, segment in enumerate(segments):
-        first, last = segment.first, segment.last
-        start = grown[-1].last if grown else 0
-        end = segments[i + 1].first if i + 1 < len(segments) else len(runs)
-        largest = max(_extent(run) for run in runs[first:last])
-        while first > start and _leads_into(runs[first - 1], runs[first], largest):
-            first -= 1
-        while last < end and _leads_into(runs[last], runs[last - 1], largest):
-            last += 1
-        grown.append(replace(segment, first=first, last=last))
-    return grown
-
-
-def _leads_into(run: TokenRun, neighbour: TokenRun, largest: float) -> bool:
-    """Tell whether a run is within a right angle of its neighbour's way, and not too large."""
-    a, b = run.token, neighbour.token
-    ours, theirs = (*a.translation, *a.rotation), (*b.translation, *b.rotation)
-    same_way = sum(x * y for x, y in zip(ours, theirs, strict=True)) > 0
-    return same_way and _extent(run) < largest
-
-
-def _extent(run: TokenRun) -> float:
-    """Return how much movement is in a run."""
-    return run.travel_heights + run.turn_rad
+    accepted = (match.action for match in ranked if match.action and match.distance <= match.most)
+    name = next(accepted, chosen)
+    own = next(match for match in ranked if match.action == name)
+    return Detection(
+        action=name,
+        first_run=whole.first,
+        last_run=whole.last,
+        start_s=runs[whole.first].start_s,
+        end_s=runs[whole.last - 1].end_s,
+        distance=own.distance,
+        confidence=own.confidence,
+        alternatives=tuple(
+            (match.action, match.distance)
+            for match in ranked
+            if match.action not in (None, name) and np.isfinite(match.distance)
+        ),
+    )

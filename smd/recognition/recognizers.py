@@ -7,7 +7,8 @@ from functools import lru_cache, partial
 from weakref import WeakKeyDictionary
 
 from smd.recognition.acceptance import Intent
-from smd.recognition.spotting import HasActions, Recognizer
+from smd.recognition.compiled_actions import HasActions
+from smd.recognition.recognizer import Recognizer
 
 KEPT = 16
 """So many recognizers are kept of a library: those of the sizes that advice tries, and more."""

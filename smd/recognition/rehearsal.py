@@ -17,7 +17,7 @@ from smd.recognition.exemplar import exemplar_of
 from smd.recognition.learning import doodle_runs, learn_pattern, without_rest
 from smd.recognition.matching import Match
 from smd.recognition.pattern import Pattern
-from smd.recognition.spotting import Recognizer
+from smd.recognition.recognizer import Recognizer
 from smd.recognition.traits import Traits, traits_of
 from smd.smoothing import smooth
 

@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike
 from laban import RigidMotion
 from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.recognition.recognizer import Span
+from smd.recognition.detection import Detection
 from smd.recognition.segmentation import Segment
-from smd.recognition.smoothing_stream import Arrays, SmoothingStream
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun
+from smd.smoothing_stream import Arrays, SmoothingStream
 
 
 class Spotter(Protocol):
@@ -27,7 +27,7 @@ class Spotter(Protocol):
 
     def named(
         self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
-    ) -> Sequence[Span]:
+    ) -> Sequence[Detection]:
         """Return the spans of stretches of runs that were chosen."""
 
 
@@ -106,7 +106,7 @@ class RecognitionStream:
         position_m: ArrayLike,
         orientation_xyzw: ArrayLike,
         drawing: bool | None = None,
-    ) -> list[Span]:
+    ) -> list[Detection]:
         """Take one sample and return the spans that have become final, in time order.
 
         ``drawing`` says whether the user means to draw; None where nothing says so.
@@ -126,7 +126,7 @@ class RecognitionStream:
         self._extend(self._smoothing.ready())
         return self._settled(time_s - self._settling_s)
 
-    def finish(self) -> list[Span]:
+    def finish(self) -> list[Detection]:
         """Return the spans that were not final yet; the doodle is over."""
         self._extend(self._smoothing.finish())
         return self._settled(np.inf)
@@ -138,7 +138,7 @@ class RecognitionStream:
             kept = self._arrays or tuple(array[:0] for array in new)
             self._arrays = tuple(map(np.concatenate, zip(kept, new, strict=True)))
 
-    def _settled(self, settled_s: float) -> list[Span]:
+    def _settled(self, settled_s: float) -> list[Detection]:
         """Return the spans that ended by then, and forget what plays no part any more."""
         if not self._arrays or len(self._arrays[0]) < 2:
             return []
@@ -148,7 +148,7 @@ class RecognitionStream:
         first = next(
             (i for i, run in enumerate(runs) if run.start_s > self._decided_s - _SAME_S), len(runs)
         )
-        final: list[Span] = []
+        final: list[Detection] = []
         needed_s = settled_s
         due_s = next((run.end_s for run in runs[first:] if run.token != STILL), np.inf)
         if due_s <= settled_s + BLOCK_S + SOON_S:  # by the next look: what is ready will not wait

@@ -12,12 +12,13 @@ from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import FloatArray
 from smd.recognition.acceptance import Intent
 from smd.recognition.action import Action
+from smd.recognition.detection import Detection
 from smd.recognition.matching import Match
 from smd.recognition.reasons import OUTDONE, reason_of
-from smd.recognition.recognizer import Span
-from smd.recognition.spotting import WORTH_NAMING, Recognizer
+from smd.recognition.recognizer import Recognizer
 from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of_parts
+from smd.recognition.weighing import WORTH_NAMING
 
 REST_S = 0.25
 """Stillness from which movement before and after it is seen as two."""
@@ -78,7 +79,7 @@ class Understood:
 
     motion: RigidMotion
     runs: Sequence[TokenRun]
-    spans: Sequence[Span]
+    spans: Sequence[Detection]
     intent: Intent = Intent.FREE
 
 

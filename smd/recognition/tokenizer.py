@@ -1,4 +1,4 @@
-"""Tokenizer: from a smooth motion to runs of tokens, in the prop's own frame."""
+"""Tokenizer: from a smooth motion to runs of tokens, along the prop's own axes."""
 
 from __future__ import annotations
 
@@ -11,14 +11,8 @@ from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import inverse, normalized, rotate
 from smd.geometry.runs import runs_of_true
-from smd.recognition.tokens import Direction, Token, TokenRun
-
-_SIGNS = (-1, 0, 1)
-DIRECTIONS: tuple[Direction, ...] = tuple((x, y, z) for x in _SIGNS for y in _SIGNS for z in _SIGNS)
-"""The 27 bins, in the order of their index; bin `NONE` is no movement."""
-
-NONE = DIRECTIONS.index((0, 0, 0))
-"""Index of the bin of no movement."""
+from smd.recognition.alphabet import DIRECTIONS, NONE, unit_directions
+from smd.recognition.tokens import Token, TokenRun, bins_of_codes, code_of_bins
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +62,7 @@ def tokenize(
 ) -> tuple[TokenRun, ...]:
     """Cut a motion into runs of one token each (section 4.1 of the paper [1]_).
 
-    The prop's velocity is read in its own frame and its angular velocity in the body's, so where
+    The prop's velocity is read along its own axes and its angular velocity in the body's, so where
     the user stands and faces does not matter. Each is put in the nearest of 26 directions, or in
     none where it is not meant: too slow, or explained by the other one (turning about a point
     beside the prop's centre moves it; an arm that swings turns it).
@@ -113,7 +107,7 @@ def tokenize(
     samples_per_s = (len(motion) - 1) / max(motion.time_s[-1] - motion.time_s[0], 1e-9)
     # + 1e-9: 2/60 s at 60 Hz is 1.999…96 samples, and a run must be longer than that.
     shortest = int(thresholds.shortest_s * samples_per_s + 1e-9) + 1
-    starts, codes = _long_runs(len(DIRECTIONS) * translation + rotation, shortest)
+    starts, codes = _long_runs(code_of_bins(translation, rotation), shortest)
     return _runs(motion, starts, codes, figure_height_m)
 
 
@@ -195,15 +189,12 @@ def _nearest_in_run(strong: BoolArray, held: BoolArray) -> IntArray:
     return np.where(before >= run_start, before, np.minimum(after, n - 1))
 
 
-_UNITS = normalized(np.array(DIRECTIONS, dtype=np.float64))
-
-
 def _steady_directions(vector: FloatArray, first: IntArray, stay_rad: float) -> IntArray:
     """Return the nearest bin of each vector ``(m, 3)``, keeping the current one while it is close.
 
     ``first`` lists the samples at which a new run begins, with nothing to keep.
     """
-    cosine = normalized(vector) @ _UNITS.T
+    cosine = normalized(vector) @ unit_directions().T
     cosine[:, NONE] = -1.0
     angle = np.arccos(np.clip(cosine, -1.0, 1.0))
     nearest = np.argmin(angle, axis=-1)
@@ -250,8 +241,9 @@ def _runs(
     bounds = np.append(starts, len(motion))
     time_s = np.append(motion.time_s[starts], motion.time_s[-1] + step_s).tolist()
     runs = []
-    for i, code in enumerate(codes.tolist()):
-        translation, rotation = DIRECTIONS[code // 27], DIRECTIONS[code % 27]
+    bins = (each.tolist() for each in bins_of_codes(codes))
+    for i, (moving, turning) in enumerate(zip(*bins, strict=True)):
+        translation, rotation = DIRECTIONS[moving], DIRECTIONS[turning]
         runs.append(
             TokenRun(
                 token=Token(translation, rotation),

@@ -1,15 +1,16 @@
-"""Tokens: the direction in which a prop moves and turns, in its own frame."""
+"""Tokens: the direction in which a prop moves and turns, along its own axes."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from itertools import product
+
+import numpy as np
 
 from smd.errors import PatternError
-
-Direction = tuple[int, int, int]
-"""Signs along +X (left), +Y (up), +Z (front): one of 27; (0, 0, 0) is no movement."""
+from smd.geometry.arrays import IntArray
+from smd.recognition.alphabet import BINS, DIRECTIONS, INDEX, Direction, direction_name
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -28,15 +29,8 @@ class Token:
     rotation: Direction = (0, 0, 0)
 
     def __str__(self) -> str:
-        parts = []
-        for letter, direction in (("T", self.translation), ("R", self.rotation)):
-            axes = [
-                ("_N_" if sign < 0 else "_") + axis
-                for sign, axis in zip(direction, "XYZ", strict=True)
-                if sign
-            ]
-            if axes:
-                parts.append(letter + "".join(axes))
+        named = (("T", self.translation), ("R", self.rotation))
+        parts = [letter + name for letter, bin_ in named if (name := direction_name(bin_))]
         return "/".join(parts) or "STILL"
 
     @classmethod
@@ -56,12 +50,31 @@ class Token:
         return token
 
 
+def bins_of(tokens: Iterable[Token]) -> IntArray:
+    """Return ``(2, n)``: the bins of the tokens' translations and of their rotations."""
+    pairs = [(INDEX[token.translation], INDEX[token.rotation]) for token in tokens]
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+
+
+def codes_of(tokens: Iterable[Token]) -> IntArray:
+    """Return the tokens' codes, one number each (`code_of_bins`)."""
+    return code_of_bins(*bins_of(tokens))
+
+
+def code_of_bins(translation: IntArray, rotation: IntArray) -> IntArray:
+    """Return the codes of tokens: 27 times the bin of translation, plus that of rotation."""
+    return BINS * translation + rotation
+
+
+def bins_of_codes(codes: IntArray) -> tuple[IntArray, IntArray]:
+    """Return the bins of translation and of rotation of tokens by their codes."""
+    return np.divmod(codes, BINS)
+
+
 @cache
 def _tokens_by_name() -> dict[str, Token]:
-    """Return all 27 x 27 tokens by their names."""
-    signs = (-1, 0, 1)
-    directions = [(x, y, z) for x in signs for y in signs for z in signs]
-    tokens = [Token(t, r) for t, r in product(directions, directions)]
+    """Return every token by its name."""
+    tokens = (Token(translation, rotation) for translation in DIRECTIONS for rotation in DIRECTIONS)
     return {str(token): token for token in tokens}
 
 

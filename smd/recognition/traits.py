@@ -21,7 +21,7 @@ from smd.geometry.rotations import (
     rotvec_from_quaternion,
 )
 from smd.recognition.embedding import (
-    Poses,
+    PoseSequence,
     embed_poses,
     extent_m,
     heading_frame,
@@ -114,7 +114,7 @@ def traits_of_parts(
     at_s = np.linspace(start_s, end_s, SAMPLES, axis=-1)[:, ::every]
 
     poses = scaled(
-        Poses(
+        PoseSequence(
             interpolate_linear(time_s, motion.position_m, at_s),
             interpolate_rotation(time_s, motion.orientation_xyzw, at_s),
         ),
@@ -157,7 +157,7 @@ def fitted(
     """Return shapes turned to fit another one better, within what hands leave open.
 
     A hand shows where it faces only roughly, and holds the prop a little askew. Both are constant
-    turns, about the world's up axis and in the prop's own frame, and are taken away, up to a
+    turns, about the world's up axis and along the prop's own axes, and are taken away, up to a
     limit. The first brings simultaneous points nearest to each other: it is the angle of the sum
     of their products, as complex numbers of the level plane. The second follows from the sum of
     the cross products of simultaneous axes, which for one constant turn is its sine times its axis.
@@ -207,7 +207,7 @@ def fitted(
     return np.asarray(np.matmul(shapes, turn.reshape(m, 12, 12)))
 
 
-def _shape(poses: Poses, frame_xyzw: FloatArray) -> FloatArray:
+def _shape(poses: PoseSequence, frame_xyzw: FloatArray) -> FloatArray:
     """Return poses seen from a frame as points ``(…, n, 12)``: four vectors a sample."""
     points = embed_poses(seen_from(poses, frame_xyzw), metres_per_radian=_RADIAN_IN_SHAPE)
     # From rows of the matrix to its columns, the prop's axes: vectors that a frame's turn turns.
@@ -216,7 +216,7 @@ def _shape(poses: Poses, frame_xyzw: FloatArray) -> FloatArray:
     return np.concatenate([points[..., :3], axes], axis=-1)
 
 
-def _mean_orientation(poses: Poses) -> FloatArray:
+def _mean_orientation(poses: PoseSequence) -> FloatArray:
     """Return the unit quaternion nearest to all of the orientations, ``(…, 4)``."""
     q = poses.orientation_xyzw
     return np.asarray(np.linalg.eigh(np.swapaxes(q, -1, -2) @ q)[1][..., -1], dtype=np.float64)

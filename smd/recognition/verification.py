@@ -8,10 +8,11 @@ from types import MappingProxyType
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.recognition.exemplar import BAND, Exemplar, faced
 from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
-from smd.recognition.warping import Examples
+from smd.recognition.warping import Templates
 
 TERMS = ("tokens", *COURSES, *MEASURES)
 """What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
@@ -55,7 +56,7 @@ unlikely than what is out."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Verification:
+class Verification(Frozen):
     """What gestures must be like to be a library's actions.
 
     Attributes
@@ -68,7 +69,7 @@ class Verification:
     spread: FloatArray = field(init=False)
     unit: FloatArray = field(init=False)
     central: FloatArray = field(init=False)
-    examples: Mapping[int, tuple[Examples, ...]] = field(init=False)
+    examples: Mapping[int, tuple[Templates, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "exemplars", tuple(self.exemplars))
@@ -89,7 +90,7 @@ class Verification:
         factors = tuple(one.factor for one in each if one)
         examples = {
             every: tuple(
-                Examples(tuple(c[:, ::every] for c in each), BAND, factors)
+                Templates(tuple(c[:, ::every] for c in each), BAND, factors)
                 for each in courses
                 if each
             )
@@ -113,7 +114,7 @@ class Verification:
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
         its peak; the tokens' is the share that is wrong. Each is multiplied by its weight, and
         none is negative. So a pair is left as soon as what is known, and what the rest costs at
-        least (`warping.Examples.at_least`), are more than ``most`` together; what was not
+        least (`warping.Templates.at_least`), are more than ``most`` together; what was not
         looked for is `inf`.
 
         Parameters

@@ -33,8 +33,8 @@ _ROUNDING = float(np.finfo(np.float32).eps)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Examples:
-    """Courses of the examples of a actions, laid out to warp others onto.
+class Templates:
+    """Templates for dynamic time warping: courses of the examples of a actions, laid out.
 
     Attributes
     ----------

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.doodle import Doodle
 from smd.errors import DoodleError, TransferError
 from smd.geometry.arrays import FloatArray, frozen_array
@@ -25,7 +26,7 @@ HEADING_SIGMA_S = 0.15
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class GroundPath:
+class GroundPath(Frozen):
     """A path over the ground.
 
     Attributes

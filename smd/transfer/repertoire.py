@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from laban import Effort
+from laban.effort import EFFORT_STEPS
 from smd.acting.flight import airborne
 from smd.acting.legs import Leg, feet_of, legs_of, pelvis_of, yaw_of
 from smd.acting.move import Airborne, Footwork
@@ -110,10 +111,6 @@ class Repertoire:
     def rest_after(self, action: str) -> str:
         """Return the action whose clip is idled in after another one."""
         return self.rests.get(action, IDLE)
-
-
-EFFORT_STEPS = {"time": 5, "weight": 5, "space": 2, "flow": 2}
-"""Steps from neutral to a pole in which an axis is played: phrases that are nearer share a clip."""
 
 
 def played_effort(effort: Effort, expressiveness: float) -> Effort:

@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from laban.frozen import Frozen
 from smd.doodle import Doodle, Recording
 from smd.errors import TransferError
 from smd.geometry.arrays import FloatArray, frozen_array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stage:
+class Stage(Frozen):
     """Where a recording's places are on the stage.
 
     Attributes

@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks import guards, sessions
 from benchmarks.composed import Teaching, sessions_of
-from benchmarks.sessions import DRAWN, DRAWN_STRICT, FREE, LIMITS, OURS, PLAIN, Trial, Trials
+from benchmarks.sessions import DRAWN, DRAWN_STRICT, FREE, LIMITS, OURS, PLAIN, Trial, TrialSet
 from benchmarks.tally import Named, Tally
 from benchmarks.variants import VARIANTS
 from smd.doodle import Doodle
@@ -62,7 +62,7 @@ def test_trials_are_added_up_by_what_is_asked_for():
         return Trial(OURS, said, OWN_2, small, person, Tally(known=4, hits=hits), 0.0, 0.0)
 
     free = (trial(2, FREE, True, 1), trial(1, FREE, False, 2), trial(2, FREE, False, 3))
-    trials = Trials((*free, trial(1, DRAWN, True, 4)))
+    trials = TrialSet((*free, trial(1, DRAWN, True, 4)))
     chosen = trials.of(OURS, FREE, OWN_2)
     assert chosen.counts.hits == 6
     assert [one.hits for one in chosen.by_person] == [2, 4]
@@ -98,7 +98,7 @@ def test_a_guard_tells_what_was_seen_a_minute(idle, capsys):
 def test_every_table_has_a_row_for_each_form(found, capsys, monkeypatch):
     monkeypatch.setattr(sessions, "TEACHINGS", (OWN_2,))
     small = found[1].every
-    both = Trials((*small, *(replace(one, small=False) for one in small)))
+    both = TrialSet((*small, *(replace(one, small=False) for one in small)))
     for show, rows in (
         (
             lambda: sessions.print_found(both, FREE),

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.composed import Gesture, Session, Teaching
+from benchmarks.composed import Annotation, Session, Teaching
 from benchmarks.tally import Named, Tally, f1_gain_interval, f1_interval, tally
 from smd.doodle import Doodle
 
 GESTURES = (
-    Gesture("a", 1.0, 2.0),
-    Gesture(None, 4.0, 5.0),
-    Gesture("b", 7.0, 8.0),
-    Gesture("a", 10.0, 11.0),
+    Annotation("a", 1.0, 2.0),
+    Annotation(None, 4.0, 5.0),
+    Annotation("b", 7.0, 8.0),
+    Annotation("a", 10.0, 11.0),
 )
 
 

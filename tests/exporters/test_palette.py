@@ -4,10 +4,12 @@ import numpy as np
 
 from exporters.palette import (
     action_colors,
+    effort_color,
     linear_from_srgb,
     performer_colors,
     srgb_from_linear,
 )
+from laban import AXES
 from tests.naive.puppet import puppet
 
 
@@ -33,3 +35,7 @@ def test_srgb_and_linear_are_inverse_and_agree_with_the_standard():
     levels = np.linspace(0.0, 1.0, 101)
     np.testing.assert_allclose(srgb_from_linear(linear_from_srgb(levels)), levels, atol=1e-6)
     np.testing.assert_allclose(linear_from_srgb(0.5), 0.214041, atol=1e-6)
+
+
+def test_every_axis_of_effort_has_a_colour_of_its_own():
+    assert len({effort_color(axis) for axis in AXES}) == len(AXES)

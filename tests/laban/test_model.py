@@ -8,6 +8,7 @@ import pytest
 
 from laban import AXES, Effort, LabanError, effort_features, load_effort_model, read_effort
 from laban.description import describe
+from laban.effort import EFFORT_STEPS, NEUTRAL, POLES
 from laban.model import read_state
 from laban.model_file import effort_model_from_json, effort_model_to_json, save_effort_model
 from laban.own import own_measure
@@ -186,7 +187,7 @@ STATES = ("alone", "states")
         (("trained_on",), None, "trained_on: got null"),
         (("axes",), {}, "axes: expected at least one"),
         (("axes",), [], "axes: got a list"),
-        (("axes", "mood"), {}, "axes: expected some of time, weight, space, flow, got 'mood'"),
+        (("axes", "mood"), {}, f"axes: expected some of {', '.join(AXES)}, got 'mood'"),
         (TIME, 3, r"axes.time: got the number 3"),
         (("alone",), [], "alone: got a list"),
         (("alone", "entries"), [], "alone.entries: expected at least one"),
@@ -250,7 +251,10 @@ def test_a_model_that_is_not_there_is_said_so(tmp_path):
         load_effort_model(tmp_path / "absent.json")
 
 
-def test_every_axis_has_its_words():
-    from laban.model import POLES
-
-    assert tuple(POLES) == AXES
+def test_every_axis_has_its_row():
+    words = [word for poles in POLES.values() for word in (*poles, NEUTRAL)]
+    assert len(set(words)) == 2 * len(AXES) + 1
+    assert tuple(POLES) == tuple(EFFORT_STEPS) == AXES
+    assert min(EFFORT_STEPS.values()) >= 1
+    for axis, (low, high) in POLES.items():
+        assert f"{axis} : {low} -1 … +1 {high}." in Effort.__doc__

@@ -8,7 +8,7 @@ import numpy as np
 
 from laban import RigidMotion
 from smd.doodle import Doodle
-from smd.recognition.recognizer import Span
+from smd.recognition.detection import Detection
 from smd.recognition.streaming import BLOCK_S, HORIZON_S, SOON_S, STEP_S, Spotter
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, TokenRun
@@ -36,7 +36,7 @@ def spans_as_they_become_final(
         motion = whole.between(-np.inf, known_s)
         runs = tokenize(motion)
         first = next((i for i, run in enumerate(runs) if run.start_s > decided_s - 0.025), 0)
-        spans: list[Span] = _spans(spotter, motion, runs)
+        spans: list[Detection] = _spans(spotter, motion, runs)
         count = len(runs)
         if any(span.first_run < first < span.last_run for span in spans):
             spans = _spans(spotter, motion, runs[first:])
@@ -59,7 +59,7 @@ def spans_as_they_become_final(
     return found
 
 
-def _spans(spotter: Spotter, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Span]:
+def _spans(spotter: Spotter, motion: RigidMotion, runs: Sequence[TokenRun]) -> list[Detection]:
     return list(spotter.named(motion, runs, spotter.chosen(motion, runs)))
 
 

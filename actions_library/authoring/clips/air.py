@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from actions_library.authoring.keys import Arm, Hand, Key, Leg, Place, Turn, both_sides
+from actions_library.authoring.keys import ArmKey, Hand, Key, LegKey, Place, Turn, both_sides
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import standing_still, steady_travel
 from smd.character.clip import Clip
@@ -14,12 +14,12 @@ from smd.character.skeleton import Skeleton
 def fly(skeleton: Skeleton) -> Clip:
     """Return flight: lying on the air behind one fist, banking a little."""
     duration = 72 / 60
-    fist = Arm(
+    fist = ArmKey(
         to=(0.10, 1.0, 0.16), bend=8.0, elbow=(1.0, 0.0, 0.3), twist=60.0, flex=0.0, curl=150.0
     )
-    swept = Arm(to=(0.42, -1.0, -0.10), bend=14.0, elbow=(0.6, 0.0, -1.0), flex=-8.0, curl=15.0)
-    straight = Leg(to=(0.06, -1.0, -0.02), bend=6.0, point=48.0)
-    bent = Leg(to=(0.04, -1.0, 0.06), bend=38.0, point=52.0)
+    swept = ArmKey(to=(0.42, -1.0, -0.10), bend=14.0, elbow=(0.6, 0.0, -1.0), flex=-8.0, curl=15.0)
+    straight = LegKey(to=(0.06, -1.0, -0.02), bend=6.0, point=48.0)
+    bent = LegKey(to=(0.04, -1.0, 0.06), bend=38.0, point=52.0)
     keys = [
         Key(
             0.0,
@@ -71,10 +71,10 @@ def fly(skeleton: Skeleton) -> Clip:
 def swim(skeleton: Skeleton) -> Clip:
     """Return the front crawl, at the height of a pool's surface: two strokes, six kicks."""
     duration, stride = 96 / 60, 1.9
-    entry = Arm(to=(0.10, 1.0, 0.12), bend=14.0, elbow=(1.0, 0.2, -0.4), twist=40.0, curl=12.0)
-    pull = Arm(to=(0.16, 0.10, 1.0), bend=52.0, elbow=(1.0, 0.5, 0.1), twist=20.0, curl=12.0)
-    push = Arm(to=(0.24, -1.0, 0.16), bend=14.0, elbow=(0.8, 0.2, -0.8), twist=0.0, curl=12.0)
-    recovery = Arm(
+    entry = ArmKey(to=(0.10, 1.0, 0.12), bend=14.0, elbow=(1.0, 0.2, -0.4), twist=40.0, curl=12.0)
+    pull = ArmKey(to=(0.16, 0.10, 1.0), bend=52.0, elbow=(1.0, 0.5, 0.1), twist=20.0, curl=12.0)
+    push = ArmKey(to=(0.24, -1.0, 0.16), bend=14.0, elbow=(0.8, 0.2, -0.8), twist=0.0, curl=12.0)
+    recovery = ArmKey(
         to=(0.90, -0.10, -0.42), bend=84.0, elbow=(0.6, 0.1, -1.0), twist=10.0, curl=20.0
     )
     half = [
@@ -104,8 +104,8 @@ def swim(skeleton: Skeleton) -> Clip:
         ),
     ]
     up, down = (
-        Leg(to=(0.04, -1.0, -0.20), bend=10.0, point=50.0),
-        Leg(to=(0.04, -1.0, 0.16), bend=24.0, point=54.0),
+        LegKey(to=(0.04, -1.0, -0.20), bend=10.0, point=50.0),
+        LegKey(to=(0.04, -1.0, 0.16), bend=24.0, point=54.0),
     )
     kicks = [
         Key(beat / 6, left_leg=up if beat % 2 else down, right_leg=down if beat % 2 else up)
@@ -124,13 +124,13 @@ def swim(skeleton: Skeleton) -> Clip:
 def climb(skeleton: Skeleton) -> Clip:
     """Climb on the spot, as up an endless ladder: the rungs come down, hand over hand."""
     duration = 90 / 60
-    arm = Arm(to=(0.12, 0.85, 0.6), bend=50.0, elbow=(0.9, -1.0, -0.2), curl=130.0, twist=60.0)
+    arm = ArmKey(to=(0.12, 0.85, 0.6), bend=50.0, elbow=(0.9, -1.0, -0.2), curl=130.0, twist=60.0)
 
     def rung(up: float, ahead: float = 0.40) -> Hand:
         return Hand(place=(0.17, up, ahead), fingers=(-0.1, 1.0, 0.5), palm=(0.0, -0.35, 1.0))
 
-    low = Leg(to=(0.10, -1.0, 0.20), bend=34.0, knee=(0.35, 0.0, 1.0), point=6.0)
-    high = Leg(to=(0.22, -0.62, 0.50), bend=104.0, knee=(0.55, 0.3, 1.0), point=10.0)
+    low = LegKey(to=(0.10, -1.0, 0.20), bend=34.0, knee=(0.35, 0.0, 1.0), point=6.0)
+    high = LegKey(to=(0.22, -0.62, 0.50), bend=104.0, knee=(0.55, 0.3, 1.0), point=10.0)
     half = [
         Key(  # the left hand has a new rung, the right foot too
             0.0,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import Plant, Via, other_foot, repeated
-from actions_library.authoring.keys import Arm, Key, Place, Turn, both_sides
+from actions_library.authoring.keys import ArmKey, Key, Place, Turn, both_sides
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import steady_travel
 from smd.character.clip import Clip
@@ -22,8 +22,8 @@ def walk(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-6.0, lean=3.0, tilt=0.5),
             chest=Turn(yaw=6.0, lean=3.0, tilt=0.0),
             head=Turn(yaw=1.0, lean=3.0, tilt=0.0),
-            left_arm=Arm(to=(0.25, -1.0, -0.42), bend=12.0, flex=10.0),
-            right_arm=Arm(to=(0.13, -1.0, 0.44), bend=34.0, flex=2.0),
+            left_arm=ArmKey(to=(0.25, -1.0, -0.42), bend=12.0, flex=10.0),
+            right_arm=ArmKey(to=(0.13, -1.0, 0.44), bend=34.0, flex=2.0),
         ),
         Key(  # down: the weight arrives
             0.11,
@@ -76,10 +76,10 @@ def run(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-7.0, lean=10.0, tilt=0.0),
             chest=Turn(yaw=9.0, lean=13.0, tilt=0.0),
             head=Turn(yaw=1.0, lean=6.0),
-            left_arm=Arm(
+            left_arm=ArmKey(
                 to=(0.34, -1.0, -0.12), bend=88.0, elbow=(0.35, 0.0, -1.0), twist=5.0, curl=115.0
             ),
-            right_arm=Arm(
+            right_arm=ArmKey(
                 to=(-0.20, -0.25, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=5.0, curl=115.0
             ),
         ),
@@ -92,10 +92,10 @@ def run(skeleton: Skeleton) -> Clip:
         ),
         Key(
             0.21,
-            left_arm=Arm(
+            left_arm=ArmKey(
                 to=(0.02, -1.0, 0.45), bend=92.0, elbow=(0.5, -0.4, -1.0), twist=5.0, curl=115.0
             ),
-            right_arm=Arm(
+            right_arm=ArmKey(
                 to=(0.02, -1.0, 0.45), bend=92.0, elbow=(0.5, -0.4, -1.0), twist=5.0, curl=115.0
             ),
         ),
@@ -129,7 +129,7 @@ def run(skeleton: Skeleton) -> Clip:
 def sneak(skeleton: Skeleton) -> Clip:
     """Two long, low steps on the toes, knees lifted high, hands held before the chest."""
     duration, stride = 108 / 60, 1.16
-    paw = Arm(to=(0.06, -0.62, 0.9), bend=78.0, elbow=(0.9, -0.3, -0.7), flex=62.0, curl=34.0)
+    paw = ArmKey(to=(0.06, -0.62, 0.9), bend=78.0, elbow=(0.9, -0.3, -0.7), flex=62.0, curl=34.0)
     half = [
         Key(  # the left toes touch, the weight still behind
             0.0,
@@ -185,8 +185,8 @@ def walk_backward(skeleton: Skeleton) -> Clip:
             place=Place(left=-0.006, up=-0.046),
             hips=Turn(yaw=8.0, lean=4.0, tilt=0.5),
             chest=Turn(yaw=4.0, lean=6.0, tilt=0.0),
-            left_arm=Arm(to=(0.24, -1.0, 0.34), bend=36.0),
-            right_arm=Arm(to=(0.30, -1.0, -0.14), bend=24.0),
+            left_arm=ArmKey(to=(0.24, -1.0, 0.34), bend=36.0),
+            right_arm=ArmKey(to=(0.30, -1.0, -0.14), bend=24.0),
         ),
         Key(
             0.13,

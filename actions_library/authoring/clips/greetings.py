@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from actions_library.authoring.keys import Arm, Key, Place, Turn, at
+from actions_library.authoring.keys import ArmKey, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, standing_still
 from smd.character.clip import Clip
@@ -14,7 +14,7 @@ from smd.character.skeleton import Skeleton
 def bow(skeleton: Skeleton) -> Clip:
     """Return a formal bow: from the hips, the back straight, the arms along the body."""
     duration = 2.60
-    straight = Arm(to=(0.15, -1.0, 0.03), bend=10.0, twist=15.0, flex=2.0, curl=12.0)
+    straight = ArmKey(to=(0.15, -1.0, 0.03), bend=10.0, twist=15.0, flex=2.0, curl=12.0)
     held = replace(straight, to=(0.10, -1.0, 0.16), bend=8.0)
     keys = [
         STAND,
@@ -118,7 +118,7 @@ def nod(skeleton: Skeleton) -> Clip:
 def wave(skeleton: Skeleton) -> Clip:
     """Wave with the right hand: raised beside the head, from side to side, three times."""
     duration, beat = 2.60, 0.21
-    up = Arm(
+    up = ArmKey(
         to=(0.62, 0.55, 0.42), bend=78.0, elbow=(1.0, -0.7, -0.1), twist=-62.0, flex=0.0, curl=8.0
     )
     inward = replace(up, to=(0.30, 0.75, 0.42), bend=88.0, flex=-4.0)
@@ -135,14 +135,14 @@ def wave(skeleton: Skeleton) -> Clip:
             place=Place(left=0.030, up=-0.012),
             hips=Turn(yaw=-3.0, lean=2.0, tilt=3.0),
             head=Turn(lean=3.0),
-            right_arm=Arm(to=(0.30, -0.80, 0.40), bend=50.0),
+            right_arm=ArmKey(to=(0.30, -0.80, 0.40), bend=50.0),
         ),
         Key(
             0.60,
             place=Place(left=0.036, up=-0.013),
             hips=Turn(yaw=-4.0, lean=1.5, tilt=3.6),
             head=Turn(yaw=-2.0, lean=0.0, tilt=4.0),
-            left_arm=Arm(to=(0.20, -1.0, 0.03), bend=16.0),
+            left_arm=ArmKey(to=(0.20, -1.0, 0.03), bend=16.0),
         ),
         *waving,
         Key(
@@ -151,7 +151,7 @@ def wave(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-4.0, lean=1.5, tilt=3.4),
             head=Turn(yaw=-2.0, lean=0.0, tilt=3.0),
         ),
-        Key(2.12, right_arm=Arm(to=(0.30, -0.95, 0.34), bend=38.0)),
+        Key(2.12, right_arm=ArmKey(to=(0.30, -0.95, 0.34), bend=38.0)),
         at(duration, STAND),
     ]
     return make_clip(

@@ -5,7 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot, repeated
-from actions_library.authoring.keys import Arm, Hand, Key, Leg, Place, Turn, at, both_sides, carried
+from actions_library.authoring.keys import (
+    ArmKey,
+    Hand,
+    Key,
+    LegKey,
+    Place,
+    Turn,
+    at,
+    both_sides,
+    carried,
+)
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
     LEFT_STANCE,
@@ -22,7 +32,7 @@ from smd.character.skeleton import Skeleton
 def crawl(skeleton: Skeleton) -> Clip:
     """Crawl on hands and toes, the knees just above the ground; hand and foot go crosswise."""
     duration, stride = 76 / 60, 0.62
-    arm = Arm(to=(0.12, 0.10, 1.0), bend=30.0, elbow=(0.7, -1.0, 0.0), twist=20.0)
+    arm = ArmKey(to=(0.12, 0.10, 1.0), bend=30.0, elbow=(0.7, -1.0, 0.0), twist=20.0)
     half = [
         Key(
             0.0,
@@ -99,10 +109,10 @@ def roll(skeleton: Skeleton) -> Clip:
     """Return a forward roll: down onto the hands, over the back, up onto the feet."""
     duration, far = 2.10, 1.55
     off, landed = 0.68, 1.36
-    tucked = Leg(to=(0.10, -0.30, 1.0), bend=128.0, point=20.0)
+    tucked = LegKey(to=(0.10, -0.30, 1.0), bend=128.0, point=20.0)
     on_ground = Hand(place=(0.20, 0.075, 0.60), fingers=(-0.2, 0.0, 1.0), palm=(0.0, -1.0, 0.1))
-    reaching = Arm(to=(0.12, 0.20, 1.0), bend=40.0, elbow=(1.0, -0.6, 0.2), curl=4.0)
-    hugging = Arm(to=(0.14, -0.62, 0.85), bend=64.0, elbow=(1.0, -0.2, -0.4), curl=40.0)
+    reaching = ArmKey(to=(0.12, 0.20, 1.0), bend=40.0, elbow=(1.0, -0.6, 0.2), curl=4.0)
+    hugging = ArmKey(to=(0.14, -0.62, 0.85), bend=64.0, elbow=(1.0, -0.2, -0.4), curl=40.0)
     keys = [
         STAND,
         Key(  # squats
@@ -182,8 +192,8 @@ def roll(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=396.0),
             chest=Turn(lean=416.0),
             head=Turn(lean=382.0),
-            left_arm=Arm(to=(0.35, -0.7, 0.7), bend=30.0),
-            right_arm=Arm(to=(0.35, -0.7, 0.7), bend=34.0),
+            left_arm=ArmKey(to=(0.35, -0.7, 0.7), bend=30.0),
+            right_arm=ArmKey(to=(0.35, -0.7, 0.7), bend=34.0),
         ),
         Key(
             1.86,
@@ -191,8 +201,8 @@ def roll(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=368.0),
             chest=Turn(lean=368.0),
             head=Turn(lean=365.0),
-            left_arm=Arm(to=(0.20, -1.0, 0.04), bend=16.0),
-            right_arm=Arm(to=(0.20, -1.0, 0.06), bend=19.0),
+            left_arm=ArmKey(to=(0.20, -1.0, 0.04), bend=16.0),
+            right_arm=ArmKey(to=(0.20, -1.0, 0.06), bend=19.0),
         ),
         _head_over_heels(at(duration, carried(STAND, ahead=far))),
     ]
@@ -232,9 +242,11 @@ def _head_over_heels(key: Key) -> Key:
 def fall(skeleton: Skeleton) -> Clip:
     """Return a fall onto the back, a moment of lying there, and getting up again."""
     duration = 3.70
-    flung = Arm(to=(0.75, 0.35, 0.75), bend=22.0, elbow=(0.4, -1.0, -0.4), curl=20.0)
-    spread = Arm(to=(1.0, -0.30, -0.03), bend=22.0, elbow=(0.1, -1.0, -0.2), curl=24.0)
-    pushing = Arm(to=(0.62, -0.45, -0.66), bend=24.0, elbow=(0.5, 0.2, -1.0), flex=-40.0, curl=10.0)
+    flung = ArmKey(to=(0.75, 0.35, 0.75), bend=22.0, elbow=(0.4, -1.0, -0.4), curl=20.0)
+    spread = ArmKey(to=(1.0, -0.30, -0.03), bend=22.0, elbow=(0.1, -1.0, -0.2), curl=24.0)
+    pushing = ArmKey(
+        to=(0.62, -0.45, -0.66), bend=24.0, elbow=(0.5, 0.2, -1.0), flex=-40.0, curl=10.0
+    )
     keys = [
         STAND,
         Key(  # struck: the chest gives way, the arms stay behind
@@ -243,8 +255,8 @@ def fall(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=4.0),
             chest=Turn(lean=14.0),
             head=Turn(lean=22.0),
-            left_arm=Arm(to=(0.30, -0.90, 0.40), bend=30.0),
-            right_arm=Arm(to=(0.30, -0.90, 0.50), bend=34.0),
+            left_arm=ArmKey(to=(0.30, -0.90, 0.40), bend=30.0),
+            right_arm=ArmKey(to=(0.30, -0.90, 0.50), bend=34.0),
         ),
         Key(  # tipping over the heels
             0.44,
@@ -315,8 +327,8 @@ def fall(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=32.0),
             chest=Turn(lean=64.0),
             head=Turn(lean=24.0),
-            left_arm=Arm(to=(0.22, -0.75, 0.70), bend=22.0),
-            right_arm=Arm(to=(0.22, -0.75, 0.75), bend=26.0),
+            left_arm=ArmKey(to=(0.22, -0.75, 0.70), bend=22.0),
+            right_arm=ArmKey(to=(0.22, -0.75, 0.75), bend=26.0),
         ),
         Key(
             3.42,
@@ -324,8 +336,8 @@ def fall(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=9.0),
             chest=Turn(lean=9.0),
             head=Turn(lean=7.0),
-            left_arm=Arm(to=(0.20, -1.0, 0.06), bend=16.0),
-            right_arm=Arm(to=(0.20, -1.0, 0.08), bend=19.0),
+            left_arm=ArmKey(to=(0.20, -1.0, 0.06), bend=16.0),
+            right_arm=ArmKey(to=(0.20, -1.0, 0.08), bend=19.0),
         ),
         at(duration, STAND),
     ]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from actions_library.authoring.clips.jumps import ballistic
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot, repeated
-from actions_library.authoring.keys import Arm, Hand, Key, Place, Turn, at, both_sides
+from actions_library.authoring.keys import ArmKey, Hand, Key, Place, Turn, at, both_sides
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
     LEFT_STANCE,
@@ -21,7 +21,7 @@ from smd.character.skeleton import Skeleton
 def clap(skeleton: Skeleton) -> Clip:
     """Clap the hands before the chest, five times."""
     duration, first, beat = 2.40, 0.52, 0.28
-    arm = Arm(to=(0.05, -0.45, 0.8), bend=86.0, elbow=(0.9, -1.0, -0.3), curl=12.0)
+    arm = ArmKey(to=(0.05, -0.45, 0.8), bend=86.0, elbow=(0.9, -1.0, -0.3), curl=12.0)
     apart = Hand((0.150, 1.20, 0.345), fingers=(0.12, 0.55, 0.80), palm=(-1.0, 0.0, 0.0))
     together = replace(apart, place=(0.030, 1.215, 0.375), fingers=(-0.10, 0.55, 0.80))
 
@@ -60,8 +60,8 @@ def clap(skeleton: Skeleton) -> Clip:
             2.12,
             place=Place(left=0.012, up=-0.010),
             hips=Turn(yaw=-2.0, lean=2.0, tilt=1.5),
-            left_arm=Arm(to=(0.19, -1.0, 0.22), bend=34.0),
-            right_arm=Arm(to=(0.19, -1.0, 0.24), bend=38.0),
+            left_arm=ArmKey(to=(0.19, -1.0, 0.22), bend=34.0),
+            right_arm=ArmKey(to=(0.19, -1.0, 0.24), bend=38.0),
             left_hand=replace(apart, place=(0.2, 1.0, 0.25), hold=0.0),
             right_hand=replace(apart, place=(0.2, 1.0, 0.25), hold=0.0),
         ),
@@ -83,8 +83,8 @@ def cheer(skeleton: Skeleton) -> Clip:
     """Throw both arms up and jump for joy, twice."""
     duration = 2.60
     flights = ((0.58, 0.90), (1.26, 1.58))
-    down = Arm(to=(0.30, -0.90, 0.35), bend=92.0, elbow=(0.8, -0.3, -1.0), curl=130.0)
-    high = Arm(to=(0.55, 1.0, 0.12), bend=16.0, elbow=(0.9, -0.3, 0.2), curl=130.0)
+    down = ArmKey(to=(0.30, -0.90, 0.35), bend=92.0, elbow=(0.8, -0.3, -1.0), curl=130.0)
+    high = ArmKey(to=(0.55, 1.0, 0.12), bend=16.0, elbow=(0.9, -0.3, 0.2), curl=130.0)
     pumped = replace(high, to=(0.60, 0.80, 0.28), bend=60.0)
     take_off, touch_down = Place(up=-0.006, ahead=0.015), Place(up=-0.055, ahead=0.010)
     crouch = Place(up=-0.165, ahead=-0.020)
@@ -162,8 +162,8 @@ def cheer(skeleton: Skeleton) -> Clip:
 def dance(skeleton: Skeleton) -> Clip:
     """Dance on the spot: step, touch, step, touch, the hips and the arms swinging."""
     duration = 76 / 60
-    swung = Arm(to=(0.75, -0.45, 0.50), bend=70.0, elbow=(0.8, -0.8, -0.6), curl=60.0)
-    across = Arm(to=(-0.25, -0.40, 0.95), bend=86.0, elbow=(1.0, -0.5, 0.1), curl=60.0)
+    swung = ArmKey(to=(0.75, -0.45, 0.50), bend=70.0, elbow=(0.8, -0.8, -0.6), curl=60.0)
+    across = ArmKey(to=(-0.25, -0.40, 0.95), bend=86.0, elbow=(1.0, -0.5, 0.1), curl=60.0)
     half = [
         Key(  # the left foot has stepped to the left
             0.0,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import Plant, Via, repeated
-from actions_library.authoring.keys import Arm, Key, Leg, Place, Turn, at, carried
+from actions_library.authoring.keys import ArmKey, Key, LegKey, Place, Turn, at, carried
 from actions_library.authoring.posing import RATE_HZ, make_clip
 from actions_library.authoring.stance import (
     LEFT_STANCE,
@@ -22,9 +22,9 @@ def jump(skeleton: Skeleton) -> Clip:
     """Return a standing long jump: crouch, swing, flight, landing."""
     duration, far = 1.90, 1.20
     crouched, off, landed = 32 / 60, 44 / 60, 73 / 60
-    back = Arm(to=(0.35, -0.75, -1.0), bend=12.0, elbow=(0.6, 0.4, -1.0), curl=45.0)
-    up = Arm(to=(0.28, 1.0, 0.70), bend=18.0, elbow=(0.8, -0.6, -0.2), curl=30.0)
-    down = Arm(to=(0.34, -0.55, 1.0), bend=30.0, elbow=(0.9, -0.4, -0.4), curl=30.0)
+    back = ArmKey(to=(0.35, -0.75, -1.0), bend=12.0, elbow=(0.6, 0.4, -1.0), curl=45.0)
+    up = ArmKey(to=(0.28, 1.0, 0.70), bend=18.0, elbow=(0.8, -0.6, -0.2), curl=30.0)
+    down = ArmKey(to=(0.34, -0.55, 1.0), bend=30.0, elbow=(0.9, -0.4, -0.4), curl=30.0)
     take_off = Place(up=-0.005, ahead=0.31)
     touch_down = Place(up=-0.130, ahead=far - 0.16)
     keys = [
@@ -35,8 +35,8 @@ def jump(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=1.0),
             chest=Turn(lean=-2.0),
             head=Turn(lean=4.0),
-            left_arm=Arm(to=(0.22, -1.0, 0.42), bend=24.0),
-            right_arm=Arm(to=(0.22, -1.0, 0.46), bend=26.0),
+            left_arm=ArmKey(to=(0.22, -1.0, 0.42), bend=24.0),
+            right_arm=ArmKey(to=(0.22, -1.0, 0.46), bend=26.0),
         ),
         Key(  # anticipation: deep, arms behind
             crouched - 0.01,
@@ -50,8 +50,8 @@ def jump(skeleton: Skeleton) -> Clip:
         Key(  # the arms swing through
             0.62,
             place=Place(up=-0.225, ahead=0.06),
-            left_arm=Arm(to=(0.25, -1.0, 0.30), bend=20.0, elbow=(0.6, 0.0, -1.0)),
-            right_arm=Arm(to=(0.25, -1.0, 0.30), bend=22.0, elbow=(0.6, 0.0, -1.0)),
+            left_arm=ArmKey(to=(0.25, -1.0, 0.30), bend=20.0, elbow=(0.6, 0.0, -1.0)),
+            right_arm=ArmKey(to=(0.25, -1.0, 0.30), bend=22.0, elbow=(0.6, 0.0, -1.0)),
         ),
         Key(  # toes off, the body one line
             off,
@@ -84,8 +84,8 @@ def jump(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=38.0),
             chest=Turn(lean=48.0),
             head=Turn(lean=18.0),
-            left_arm=Arm(to=(0.45, -0.9, 0.62), bend=30.0),
-            right_arm=Arm(to=(0.45, -0.9, 0.70), bend=34.0),
+            left_arm=ArmKey(to=(0.45, -0.9, 0.62), bend=30.0),
+            right_arm=ArmKey(to=(0.45, -0.9, 0.70), bend=34.0),
         ),
         Key(
             1.68,
@@ -93,8 +93,8 @@ def jump(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=7.0),
             chest=Turn(lean=7.0),
             head=Turn(lean=5.0),
-            left_arm=Arm(to=(0.20, -1.0, 0.02), bend=16.0),
-            right_arm=Arm(to=(0.20, -1.0, 0.04), bend=18.0),
+            left_arm=ArmKey(to=(0.20, -1.0, 0.02), bend=16.0),
+            right_arm=ArmKey(to=(0.20, -1.0, 0.04), bend=18.0),
         ),
         at(duration, carried(STAND, ahead=far)),
         *ballistic(off, take_off, landed, touch_down),
@@ -131,9 +131,9 @@ def hop(skeleton: Skeleton) -> Clip:
     """Hop on the left leg, again and again, the right one drawn up."""
     duration, off, landed = 36 / 60, 10 / 60, 29 / 60
     take_off, touch_down = Place(left=0.085, up=-0.004), Place(left=0.085, up=-0.030)
-    wide = Arm(to=(0.85, -0.62, 0.30), bend=42.0, elbow=(0.5, -0.6, -0.8), curl=30.0)
-    flung = Arm(to=(0.95, -0.12, 0.26), bend=36.0, elbow=(0.4, -0.8, -0.6), curl=24.0)
-    drawn = Leg(to=(0.10, -0.86, -0.26), bend=92.0, knee=(0.2, -0.2, 1.0), point=28.0)
+    wide = ArmKey(to=(0.85, -0.62, 0.30), bend=42.0, elbow=(0.5, -0.6, -0.8), curl=30.0)
+    flung = ArmKey(to=(0.95, -0.12, 0.26), bend=36.0, elbow=(0.4, -0.8, -0.6), curl=24.0)
+    drawn = LegKey(to=(0.10, -0.86, -0.26), bend=92.0, knee=(0.2, -0.2, 1.0), point=28.0)
     keys = [
         Key(
             0.0,
@@ -193,8 +193,8 @@ def leap(skeleton: Skeleton) -> Clip:
     stepped, off, landed, closed = 0.34, 0.74, 1.28, 1.80
     take_off = Place(left=0.015, up=-0.020, ahead=0.62)
     touch_down = Place(left=-0.020, up=-0.085, ahead=far - 0.22)
-    ahead_leg = Leg(to=(0.05, -0.42, 1.0), bend=14.0, point=52.0)
-    behind_leg = Leg(to=(0.06, -0.50, -0.95), bend=22.0, knee=(0.25, -0.4, 0.6), point=58.0)
+    ahead_leg = LegKey(to=(0.05, -0.42, 1.0), bend=14.0, point=52.0)
+    behind_leg = LegKey(to=(0.06, -0.50, -0.95), bend=22.0, knee=(0.25, -0.4, 0.6), point=58.0)
     keys = [
         STAND,
         Key(
@@ -203,8 +203,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=4.0, lean=3.0),
             chest=Turn(yaw=-3.0, lean=2.0),
             head=Turn(lean=4.0),
-            left_arm=Arm(to=(0.30, -1.0, -0.20), bend=20.0),
-            right_arm=Arm(to=(0.30, -1.0, 0.20), bend=24.0),
+            left_arm=ArmKey(to=(0.30, -1.0, -0.20), bend=20.0),
+            right_arm=ArmKey(to=(0.30, -1.0, 0.20), bend=24.0),
         ),
         Key(  # deep on the left leg
             0.52,
@@ -212,8 +212,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-6.0, lean=16.0, tilt=1.0),
             chest=Turn(yaw=8.0, lean=18.0, tilt=0.0),
             head=Turn(lean=6.0),
-            left_arm=Arm(to=(0.50, -0.75, -0.60), bend=18.0),
-            right_arm=Arm(to=(0.60, -0.80, -0.40), bend=18.0),
+            left_arm=ArmKey(to=(0.50, -0.75, -0.60), bend=18.0),
+            right_arm=ArmKey(to=(0.60, -0.80, -0.40), bend=18.0),
             left_leg=behind_leg,
             right_leg=replace(ahead_leg, to=(0.02, -0.85, -0.42), bend=104.0, point=4.0),
         ),
@@ -231,8 +231,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-16.0, lean=4.0),
             chest=Turn(yaw=6.0, lean=4.0),
             head=Turn(lean=-3.0),
-            left_arm=Arm(to=(0.50, 0.55, 0.85), bend=12.0, elbow=(0.7, -0.7, -0.2), curl=14.0),
-            right_arm=Arm(to=(1.0, 0.32, -0.10), bend=12.0, elbow=(0.1, -0.9, -0.6), curl=14.0),
+            left_arm=ArmKey(to=(0.50, 0.55, 0.85), bend=12.0, elbow=(0.7, -0.7, -0.2), curl=14.0),
+            right_arm=ArmKey(to=(1.0, 0.32, -0.10), bend=12.0, elbow=(0.1, -0.9, -0.6), curl=14.0),
             left_leg=behind_leg,
             right_leg=ahead_leg,
         ),
@@ -242,8 +242,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-10.0, lean=10.0, tilt=-2.0),
             chest=Turn(yaw=4.0, lean=14.0, tilt=1.0),
             head=Turn(lean=6.0),
-            left_arm=Arm(to=(0.70, -0.10, 0.70), bend=22.0, curl=20.0),
-            right_arm=Arm(to=(0.95, -0.10, 0.05), bend=22.0, curl=20.0),
+            left_arm=ArmKey(to=(0.70, -0.10, 0.70), bend=22.0, curl=20.0),
+            right_arm=ArmKey(to=(0.95, -0.10, 0.05), bend=22.0, curl=20.0),
             left_leg=replace(behind_leg, to=(0.05, -0.8, -0.55), bend=46.0),
             right_leg=replace(ahead_leg, to=(0.02, -0.9, 0.42), bend=12.0, point=30.0),
         ),
@@ -253,8 +253,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-4.0, lean=20.0, tilt=-4.0),
             chest=Turn(yaw=2.0, lean=24.0, tilt=3.0),
             head=Turn(lean=12.0),
-            left_arm=Arm(to=(0.60, -0.80, 0.30), bend=26.0),
-            right_arm=Arm(to=(0.60, -0.75, 0.30), bend=26.0),
+            left_arm=ArmKey(to=(0.60, -0.80, 0.30), bend=26.0),
+            right_arm=ArmKey(to=(0.60, -0.75, 0.30), bend=26.0),
             left_leg=replace(behind_leg, to=(0.04, -0.90, -0.28), bend=96.0, point=4.0),
         ),
         Key(
@@ -263,8 +263,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-2.0, lean=6.0, tilt=-2.0),
             chest=Turn(yaw=1.5, lean=5.0, tilt=1.0),
             head=Turn(lean=5.0),
-            left_arm=Arm(to=(0.24, -1.0, 0.04), bend=17.0),
-            right_arm=Arm(to=(0.24, -1.0, 0.08), bend=20.0),
+            left_arm=ArmKey(to=(0.24, -1.0, 0.04), bend=17.0),
+            right_arm=ArmKey(to=(0.24, -1.0, 0.08), bend=20.0),
         ),
         at(duration, carried(STAND, ahead=far)),
         *ballistic(off, take_off, landed, touch_down),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import Plant, Via, other_foot, repeated
-from actions_library.authoring.keys import Arm, Key, Place, Turn, mirrored
+from actions_library.authoring.keys import ArmKey, Key, Place, Turn, mirrored
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import steady_travel
 from smd.character.clip import Clip
@@ -24,8 +24,8 @@ def side_step_right(skeleton: Skeleton) -> Clip:
 
 def _side_step(skeleton: Skeleton, name: str, to: float) -> Clip:
     duration, stride = 54 / 60, 0.60
-    near = Arm(to=(0.28, -1.0, 0.28), bend=46.0, elbow=(0.7, 0.0, -1.0))
-    wide = Arm(to=(0.66, -1.0, 0.16), bend=26.0, elbow=(0.8, 0.2, -1.0))
+    near = ArmKey(to=(0.28, -1.0, 0.28), bend=46.0, elbow=(0.7, 0.0, -1.0))
+    wide = ArmKey(to=(0.66, -1.0, 0.16), bend=26.0, elbow=(0.8, 0.2, -1.0))
     keys = [
         Key(  # feet together, pushing off the right one
             0.0,

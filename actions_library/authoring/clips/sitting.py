@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from actions_library.authoring.keys import Arm, Key, Place, Turn, at
+from actions_library.authoring.keys import ArmKey, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
     LEFT_STANCE,
@@ -15,7 +15,7 @@ from actions_library.authoring.stance import (
 from smd.character.clip import Clip
 from smd.character.skeleton import Skeleton
 
-_ON_KNEES = Arm(to=(0.02, -0.46, 1.0), bend=40.0, elbow=(1.0, -0.4, -0.5), curl=35.0)
+_ON_KNEES = ArmKey(to=(0.02, -0.46, 1.0), bend=40.0, elbow=(1.0, -0.4, -0.5), curl=35.0)
 
 SEAT = Key(
     0.0,
@@ -32,7 +32,7 @@ SEAT = Key(
 def crouch(skeleton: Skeleton) -> Clip:
     """Crouch low over the feet, look about, and come up again."""
     duration = 2.40
-    low = Arm(to=(0.10, -0.62, 0.85), bend=62.0, elbow=(1.0, -0.4, -0.5), curl=40.0)
+    low = ArmKey(to=(0.10, -0.62, 0.85), bend=62.0, elbow=(1.0, -0.4, -0.5), curl=40.0)
     keys = [
         STAND,
         Key(
@@ -67,8 +67,8 @@ def crouch(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=7.0),
             chest=Turn(lean=6.0),
             head=Turn(yaw=0.0, lean=5.0),
-            left_arm=Arm(to=(0.19, -1.0, 0.08), bend=19.0),
-            right_arm=Arm(to=(0.19, -1.0, 0.10), bend=22.0),
+            left_arm=ArmKey(to=(0.19, -1.0, 0.08), bend=19.0),
+            right_arm=ArmKey(to=(0.19, -1.0, 0.10), bend=22.0),
         ),
         at(duration, STAND),
     ]
@@ -86,7 +86,7 @@ def crouch(skeleton: Skeleton) -> Clip:
 def sit_down(skeleton: Skeleton) -> Clip:
     """Sit down on the ground: squat, a hand behind, the seat down, hands on the knees."""
     duration = 2.30
-    behind = Arm(to=(0.60, -0.80, -0.30), bend=14.0, follow=0.0, flex=-30.0, curl=8.0)
+    behind = ArmKey(to=(0.60, -0.80, -0.30), bend=14.0, follow=0.0, flex=-30.0, curl=8.0)
     keys = [
         STAND,
         Key(  # looks where
@@ -102,7 +102,7 @@ def sit_down(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-2.0, lean=30.0),
             chest=Turn(yaw=-6.0, lean=66.0),
             head=Turn(yaw=-12.0, lean=30.0),
-            left_arm=Arm(to=(0.06, -0.20, 1.0), bend=30.0, follow=0.0),
+            left_arm=ArmKey(to=(0.06, -0.20, 1.0), bend=30.0, follow=0.0),
             right_arm=behind,
         ),
         Key(1.22, right_arm=replace(behind, to=(0.60, -0.60, -0.50), bend=20.0, flex=-50.0)),
@@ -112,7 +112,7 @@ def sit_down(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=6.0),
             chest=Turn(lean=46.0),
             head=Turn(lean=26.0),
-            left_arm=Arm(to=(0.04, -0.16, 1.0), bend=30.0, follow=0.0),
+            left_arm=ArmKey(to=(0.04, -0.16, 1.0), bend=30.0, follow=0.0),
             right_arm=replace(behind, to=(0.62, -0.50, -0.50), bend=24.0, flex=-50.0),
         ),
         Key(
@@ -122,7 +122,7 @@ def sit_down(skeleton: Skeleton) -> Clip:
             chest=Turn(lean=18.0),
             head=Turn(lean=8.0),
             left_arm=_ON_KNEES,
-            right_arm=Arm(to=(0.45, -0.30, 0.80), bend=50.0),
+            right_arm=ArmKey(to=(0.45, -0.30, 0.80), bend=50.0),
         ),
         at(duration, SEAT),
     ]
@@ -171,7 +171,9 @@ def idle_sitting(skeleton: Skeleton) -> Clip:
 def stand_up(skeleton: Skeleton) -> Clip:
     """Stand up from the ground: hands behind, rock forward over the feet, rise."""
     duration = 2.20
-    pushing = Arm(to=(0.66, -0.44, -0.60), bend=16.0, elbow=(0.5, 0.2, -1.0), flex=-50.0, curl=8.0)
+    pushing = ArmKey(
+        to=(0.66, -0.44, -0.60), bend=16.0, elbow=(0.5, 0.2, -1.0), flex=-50.0, curl=8.0
+    )
     keys = [
         SEAT,
         Key(
@@ -203,8 +205,8 @@ def stand_up(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=32.0),
             chest=Turn(lean=66.0),
             head=Turn(lean=24.0),
-            left_arm=Arm(to=(0.20, -0.72, 0.75), bend=24.0),
-            right_arm=Arm(to=(0.20, -0.72, 0.80), bend=28.0),
+            left_arm=ArmKey(to=(0.20, -0.72, 0.75), bend=24.0),
+            right_arm=ArmKey(to=(0.20, -0.72, 0.80), bend=28.0),
         ),
         Key(  # up
             1.64,
@@ -212,8 +214,8 @@ def stand_up(skeleton: Skeleton) -> Clip:
             hips=Turn(lean=4.0),
             chest=Turn(lean=1.0),
             head=Turn(lean=2.0),
-            left_arm=Arm(to=(0.19, -1.0, 0.04), bend=14.0),
-            right_arm=Arm(to=(0.19, -1.0, 0.06), bend=18.0),
+            left_arm=ArmKey(to=(0.19, -1.0, 0.04), bend=14.0),
+            right_arm=ArmKey(to=(0.19, -1.0, 0.06), bend=18.0),
         ),
         Key(1.86, place=Place(left=0.009, up=-0.006), chest=Turn(lean=-1.0)),
         at(duration, STAND),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Via
-from actions_library.authoring.keys import Arm, Hand, Key, Place, Turn, at
+from actions_library.authoring.keys import ArmKey, Hand, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, standing_still
 from smd.character.clip import Clip
@@ -24,8 +24,8 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-20.0, lean=3.0, tilt=0.0),
             chest=Turn(yaw=-18.0, lean=4.0),
             head=Turn(yaw=-2.0, lean=6.0),
-            left_arm=Arm(to=(0.0, -0.9, 0.7), bend=60.0),
-            right_arm=Arm(to=(0.02, -0.9, 0.55), bend=75.0, curl=80.0),
+            left_arm=ArmKey(to=(0.0, -0.9, 0.7), bend=60.0),
+            right_arm=ArmKey(to=(0.02, -0.9, 0.55), bend=75.0, curl=80.0),
         ),
         Key(  # wound up: the side to the target, the weight on the rear leg
             0.66,
@@ -33,7 +33,7 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-62.0, lean=0.0, tilt=4.0),
             chest=Turn(yaw=-82.0, lean=-8.0, tilt=8.0),
             head=Turn(yaw=-12.0, lean=4.0, tilt=4.0),
-            left_arm=Arm(
+            left_arm=ArmKey(
                 to=(0.10, 0.30, 1.0),
                 bend=26.0,
                 elbow=(0.6, -1.0, 0.0),
@@ -41,7 +41,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 twist=40.0,
                 curl=20.0,
             ),
-            right_arm=Arm(
+            right_arm=ArmKey(
                 to=(1.0, -0.35, -0.35), bend=42.0, elbow=(0.2, -0.4, -1.0), twist=20.0, curl=80.0
             ),
         ),
@@ -51,7 +51,7 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-22.0, lean=2.0, tilt=2.0),
             chest=Turn(yaw=-48.0, lean=-10.0, tilt=6.0),
             head=Turn(yaw=-4.0, lean=4.0, tilt=2.0),
-            left_arm=Arm(
+            left_arm=ArmKey(
                 to=(0.45, 0.10, 1.0),
                 bend=30.0,
                 elbow=(0.6, -1.0, 0.0),
@@ -59,7 +59,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 twist=40.0,
                 curl=20.0,
             ),
-            right_arm=Arm(
+            right_arm=ArmKey(
                 to=(0.75, 0.62, -0.55),
                 bend=98.0,
                 elbow=(1.0, -0.35, 0.1),
@@ -74,8 +74,8 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=14.0, lean=10.0, tilt=-2.0),
             chest=Turn(yaw=24.0, lean=16.0, tilt=-10.0),
             head=Turn(yaw=0.0, lean=8.0, tilt=-4.0),
-            left_arm=Arm(to=(0.55, -0.35, 0.35), bend=85.0, elbow=(0.8, -0.3, -1.0), curl=45.0),
-            right_arm=Arm(
+            left_arm=ArmKey(to=(0.55, -0.35, 0.35), bend=85.0, elbow=(0.8, -0.3, -1.0), curl=45.0),
+            right_arm=ArmKey(
                 to=(0.35, 0.80, 0.75),
                 bend=22.0,
                 elbow=(1.0, -0.2, 0.2),
@@ -90,8 +90,8 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=34.0, lean=22.0, tilt=-2.0),
             chest=Turn(yaw=58.0, lean=38.0, tilt=-6.0),
             head=Turn(yaw=8.0, lean=12.0, tilt=-4.0),
-            left_arm=Arm(to=(0.50, -0.70, -0.45), bend=72.0, elbow=(0.5, 0.2, -1.0), curl=45.0),
-            right_arm=Arm(
+            left_arm=ArmKey(to=(0.50, -0.70, -0.45), bend=72.0, elbow=(0.5, 0.2, -1.0), curl=45.0),
+            right_arm=ArmKey(
                 to=(-0.45, -0.80, 0.75),
                 bend=18.0,
                 elbow=(1.0, 0.1, -0.2),
@@ -106,7 +106,7 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=18.0, lean=12.0),
             chest=Turn(yaw=26.0, lean=18.0),
             head=Turn(yaw=3.0, lean=9.0),
-            right_arm=Arm(to=(-0.05, -0.80, 0.80), bend=34.0, twist=35.0),
+            right_arm=ArmKey(to=(-0.05, -0.80, 0.80), bend=34.0, twist=35.0),
         ),
         Key(  # the weight is back on the rear leg
             1.72,
@@ -114,8 +114,8 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=4.0, lean=4.0, tilt=-2.0),
             chest=Turn(yaw=4.0, lean=5.0, tilt=1.0),
             head=Turn(yaw=0.0, lean=5.0),
-            left_arm=Arm(to=(0.26, -1.0, 0.10), bend=32.0),
-            right_arm=Arm(to=(0.06, -1.0, 0.28), bend=26.0),
+            left_arm=ArmKey(to=(0.26, -1.0, 0.10), bend=32.0),
+            right_arm=ArmKey(to=(0.06, -1.0, 0.28), bend=26.0),
         ),
         at(duration, STAND),
     ]
@@ -172,9 +172,9 @@ def throw(skeleton: Skeleton) -> Clip:
 def pick_up(skeleton: Skeleton) -> Clip:
     """Bend the knees, take something from the ground with the right hand, and lift it."""
     duration = 2.90
-    arm = Arm(to=(0.02, -0.9, 0.7), bend=30.0, elbow=(0.9, 0.1, -1.0), curl=20.0)
+    arm = ArmKey(to=(0.02, -0.9, 0.7), bend=30.0, elbow=(0.9, 0.1, -1.0), curl=20.0)
     held = replace(arm, to=(0.05, -0.62, 0.75), bend=84.0, curl=95.0)
-    on_knee = Arm(to=(0.20, -0.80, 0.75), bend=44.0, elbow=(1.0, 0.0, -0.8), curl=25.0)
+    on_knee = ArmKey(to=(0.20, -0.80, 0.75), bend=44.0, elbow=(1.0, 0.0, -0.8), curl=25.0)
     grasp = Hand((0.06, 0.190, 0.29), fingers=(-0.05, -0.9, 0.5), palm=(-0.6, -0.35, -0.6))
     keys = [
         STAND,
@@ -223,7 +223,7 @@ def pick_up(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-1.0, lean=8.0),
             chest=Turn(yaw=2.0, lean=9.0),
             head=Turn(yaw=-3.0, lean=24.0),
-            left_arm=Arm(to=(0.20, -1.0, 0.12), bend=22.0),
+            left_arm=ArmKey(to=(0.20, -1.0, 0.12), bend=22.0),
             right_arm=held,
             right_hand=replace(grasp, place=(0.14, 1.02, 0.34), hold=0.0),
         ),
@@ -233,7 +233,7 @@ def pick_up(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-2.0, lean=2.0),
             chest=Turn(yaw=1.0, lean=1.0),
             head=Turn(yaw=-2.0, lean=14.0),
-            left_arm=Arm(to=(0.18, -1.0, 0.06), bend=16.0),
+            left_arm=ArmKey(to=(0.18, -1.0, 0.06), bend=16.0),
             right_arm=replace(held, to=(0.08, -0.70, 0.68), bend=80.0),
         ),
         at(duration, STAND),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot
-from actions_library.authoring.keys import Arm, Key, Leg, Place, Turn, at, carried, mirrored
+from actions_library.authoring.keys import ArmKey, Key, LegKey, Place, Turn, at, carried, mirrored
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, moved_in_one_go
 from smd.character.clip import Clip
@@ -25,8 +25,8 @@ def turn_right(skeleton: Skeleton) -> Clip:
 def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
     """Make the turn to the left; the one to the right is posed as its mirror image."""
     duration = 1.5
-    hanging_out = Arm(to=(0.34, -1.0, 0.10), bend=24.0)
-    hanging_in = Arm(to=(0.21, -1.0, 0.22), bend=26.0)
+    hanging_out = ArmKey(to=(0.34, -1.0, 0.10), bend=24.0)
+    hanging_in = ArmKey(to=(0.21, -1.0, 0.22), bend=26.0)
     stand = STAND if to > 0 else mirrored(STAND)
     keys = [
         stand,
@@ -36,8 +36,8 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
             hips=Turn(yaw=-3.0, lean=3.0, tilt=-3.0),
             chest=Turn(yaw=8.0, lean=2.0, tilt=1.0),
             head=Turn(yaw=38.0, lean=6.0, tilt=-2.0),
-            left_arm=Arm(to=(0.22, -1.0, 0.04), bend=20.0),
-            right_arm=Arm(to=(0.20, -1.0, 0.12), bend=24.0),
+            left_arm=ArmKey(to=(0.22, -1.0, 0.04), bend=20.0),
+            right_arm=ArmKey(to=(0.20, -1.0, 0.12), bend=24.0),
         ),
         Key(
             0.55,
@@ -61,8 +61,8 @@ def _quarter_turn(skeleton: Skeleton, name: str, to: float) -> Clip:
             hips=Turn(yaw=90.0, lean=3.0, tilt=2.5),
             chest=Turn(yaw=93.0, lean=2.0, tilt=-1.0),
             head=Turn(yaw=91.0, lean=3.0, tilt=0.0),
-            left_arm=Arm(to=(0.26, -1.0, -0.08), bend=15.0),
-            right_arm=Arm(to=(0.26, -1.0, 0.16), bend=26.0),
+            left_arm=ArmKey(to=(0.26, -1.0, -0.08), bend=15.0),
+            right_arm=ArmKey(to=(0.26, -1.0, 0.16), bend=26.0),
         ),
         at(duration, carried(stand, yaw=90.0)),
     ]
@@ -123,9 +123,9 @@ def _around(plant: Plant) -> Plant:
 def spin(skeleton: Skeleton) -> Clip:
     """Return a whole turn to the left on the ball of the left foot, the right one at its knee."""
     duration, off, landed = 1.90, 0.52, 1.34
-    gathered = Arm(to=(-0.10, -0.55, 0.80), bend=84.0, elbow=(1.0, -0.2, 0.1), curl=30.0)
-    opened = Arm(to=(1.0, -0.22, 0.35), bend=24.0, elbow=(0.2, -0.8, -0.6), curl=18.0)
-    drawn = Leg(to=(0.30, -0.84, 0.14), bend=96.0, knee=(0.8, 0.0, 1.0), point=56.0)
+    gathered = ArmKey(to=(-0.10, -0.55, 0.80), bend=84.0, elbow=(1.0, -0.2, 0.1), curl=30.0)
+    opened = ArmKey(to=(1.0, -0.22, 0.35), bend=24.0, elbow=(0.2, -0.8, -0.6), curl=18.0)
+    drawn = LegKey(to=(0.30, -0.84, 0.14), bend=96.0, knee=(0.8, 0.0, 1.0), point=56.0)
     keys = [
         STAND,
         Key(  # wound up to the right, both knees bent
@@ -134,7 +134,7 @@ def spin(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-16.0, lean=8.0),
             chest=Turn(yaw=-42.0, lean=8.0),
             head=Turn(yaw=-8.0, lean=6.0),
-            left_arm=Arm(to=(0.10, -0.50, 1.0), bend=40.0, elbow=(0.9, -0.5, -0.2)),
+            left_arm=ArmKey(to=(0.10, -0.50, 1.0), bend=40.0, elbow=(0.9, -0.5, -0.2)),
             right_arm=replace(opened, to=(1.0, -0.30, -0.25)),
             right_leg=drawn,
         ),

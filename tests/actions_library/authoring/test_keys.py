@@ -4,7 +4,7 @@ import pytest
 
 from actions_library.authoring.keys import (
     PARTS,
-    Arm,
+    ArmKey,
     Key,
     Place,
     Turn,
@@ -19,7 +19,7 @@ POSE = Key(
     place=Place(left=0.1, up=-0.2, ahead=0.3),
     hips=Turn(yaw=10.0, lean=20.0, tilt=30.0),
     head=Turn(yaw=-5.0, lean=1.0, tilt=2.0),
-    left_arm=Arm(bend=40.0),
+    left_arm=ArmKey(bend=40.0),
 )
 
 

@@ -1,10 +1,11 @@
 from __future__ import annotations
 
 import json
+from typing import get_type_hints
 
 import pytest
 
-from laban import load_effort_model
+from laban import AXES, load_effort_model
 from smd.doodle import Recording
 from smd.formats import write_recording
 from smd.synthetic.efforts import labelled_takes
@@ -92,3 +93,10 @@ def test_bad_input_costs_one_line_and_leaves_nothing_behind(run_smd, takes, tmp_
         assert said in err
         assert len(err.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_help_of_train_names_the_columns_of_a_manifest():
+    from smd.cli.laban import train
+
+    manifest = get_type_hints(train, include_extras=True)["manifest"]
+    assert f"file,{','.join(AXES)},performer" in manifest.__metadata__[0].help

@@ -13,7 +13,7 @@ from smd.geometry.rotations import (
     rotate,
 )
 from smd.recognition.embedding import (
-    Poses,
+    PoseSequence,
     embed_poses,
     extent_m,
     heading_frame,
@@ -28,11 +28,11 @@ UP = [0.0, 1.0, 0.0]
 
 
 def random_poses(rng, n=20):
-    return Poses(rng.normal(size=(n, 3)), normalized(rng.normal(size=(n, 4))))
+    return PoseSequence(rng.normal(size=(n, 3)), normalized(rng.normal(size=(n, 4))))
 
 
 def moved(poses, by_m, turn_xyzw):
-    return Poses(
+    return PoseSequence(
         rotate(turn_xyzw, poses.position_m) + by_m, multiply(turn_xyzw, poses.orientation_xyzw)
     )
 
@@ -46,13 +46,17 @@ def test_two_orientations_are_apart_by_twice_the_sine_of_half_their_angle(angle)
     rng = np.random.default_rng(0)
     q, axis = normalized(rng.normal(size=4)), rng.normal(size=3)
     turned = -multiply(q, quaternion_about(axis, angle))
-    points = embed_poses(Poses(np.zeros((2, 3)), np.stack([q, turned])), metres_per_radian=0.3)
+    points = embed_poses(
+        PoseSequence(np.zeros((2, 3)), np.stack([q, turned])), metres_per_radian=0.3
+    )
     apart = np.linalg.norm(points[1] - points[0])
     assert apart == pytest.approx(0.3 * 2.0 * np.sin(angle / 2.0), abs=1e-12)
 
 
 def test_positions_and_orientations_add_in_squares():
-    poses = Poses(np.array([[0.0, 0, 0], [3.0, 0, 0]]), np.stack([IDENTITY_XYZW, [1.0, 0, 0, 0]]))
+    poses = PoseSequence(
+        np.array([[0.0, 0, 0], [3.0, 0, 0]]), np.stack([IDENTITY_XYZW, [1.0, 0, 0, 0]])
+    )
     points = embed_poses(poses, metres_per_radian=2.0)
     assert np.linalg.norm(points[1] - points[0]) == pytest.approx(5.0)
 
@@ -70,7 +74,7 @@ def test_distances_do_not_depend_on_the_world(seed):
 def test_in_the_heading_frame_a_turn_about_up_does_not_matter_and_others_do(seed):
     rng = np.random.default_rng(seed)
     small = quaternion_from_rotvec(0.3 * rng.normal(size=(20, 3)))
-    poses = Poses(rng.normal(size=(20, 3)), small)
+    poses = PoseSequence(rng.normal(size=(20, 3)), small)
     for axis, alike in ((UP, True), ([1.0, 0.0, 0.0], False)):
         other = moved(poses, rng.normal(size=3), quaternion_about(axis, 1.0))
         a, b = (embed_poses(seen_from(p, heading_frame(p))) for p in (poses, other))
@@ -79,14 +83,14 @@ def test_in_the_heading_frame_a_turn_about_up_does_not_matter_and_others_do(seed
 
 def test_the_heading_frame_faces_ahead_with_the_prop_and_stays_upright():
     turned = np.stack([quaternion_about(UP, a) for a in (0.2, 0.6)])
-    frame = heading_frame(Poses(np.zeros((2, 3)), turned))
+    frame = heading_frame(PoseSequence(np.zeros((2, 3)), turned))
     np.testing.assert_allclose(frame, quaternion_about(UP, 0.4), atol=1e-12)
 
 
 def test_the_heading_of_a_full_turn_is_the_first():
     angles = np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False) + 0.7
     turning = np.stack([quaternion_about(UP, a) for a in angles])
-    frame = heading_frame(Poses(np.zeros((50, 3)), turning))
+    frame = heading_frame(PoseSequence(np.zeros((50, 3)), turning))
     np.testing.assert_allclose(frame, quaternion_about(UP, 0.7), atol=1e-12)
 
 
@@ -103,4 +107,6 @@ def test_the_extent_is_free_of_place_and_grows_with_size():
     extent = extent_m(poses)
     assert extent_m(moved(poses, [1.0, 2.0, 3.0], IDENTITY_XYZW)) == pytest.approx(extent)
     assert extent_m(scaled(poses, 3.0)) == pytest.approx(3.0 * extent)
-    assert extent_m(Poses(np.array([[1.0, 0, 0], [-1.0, 0, 0]]), poses[1])) == pytest.approx(1.0)
+    assert extent_m(PoseSequence(np.array([[1.0, 0, 0], [-1.0, 0, 0]]), poses[1])) == pytest.approx(
+        1.0
+    )

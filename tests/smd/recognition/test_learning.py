@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from smd.doodle import Doodle
 from smd.errors import LearningError
+from smd.recognition.alphabet import DIRECTIONS
 from smd.recognition.automaton import compile_automaton, edit_distance
 from smd.recognition.generalization import generalized, pattern_of, ways_of
 from smd.recognition.learning import doodle_runs, learn_pattern, without_rest
 from smd.recognition.pattern import Pattern
-from smd.recognition.places import Stroke
-from smd.recognition.tokenizer import DIRECTIONS
+from smd.recognition.progressive_alignment import WeightedToken
 from smd.recognition.tokens import STILL, Token
 from smd.synthetic.efforts import ACTIONS
 from smd.synthetic.person import STEADY, simulated_person
@@ -72,8 +72,8 @@ def test_every_example_and_their_average_is_accepted(action, count):
         assert distance(learned.pattern, learned.average_sequence) == 0
 
 
-strokes = st.builds(Stroke, st.sampled_from(NEAR), st.floats(0.02, 1.0))
-anchor = st.builds(Stroke, st.sampled_from(MOVING), st.just(1.0))
+strokes = st.builds(WeightedToken, st.sampled_from(NEAR), st.floats(0.02, 1.0))
+anchor = st.builds(WeightedToken, st.sampled_from(MOVING), st.just(1.0))
 examples = st.lists(
     st.tuples(st.lists(strokes, max_size=4), anchor, st.lists(strokes, max_size=4)).map(
         lambda parts: [*parts[0], parts[1], *parts[2]]
@@ -176,14 +176,14 @@ def test_where_the_trigger_is_not_held_nothing_is_learned():
 
 
 def test_a_small_wobble_that_one_example_has_is_optional():
-    main = [Stroke(Token.parse("T_Z"), 1.0), Stroke(Token.parse("T_N_Z"), 0.9)]
-    wobble = Stroke(Token.parse("T_X"), 0.1)
+    main = [WeightedToken(Token.parse("T_Z"), 1.0), WeightedToken(Token.parse("T_N_Z"), 0.9)]
+    wobble = WeightedToken(Token.parse("T_X"), 0.1)
     groups = generalized([main, [main[0], wobble, main[1]], main])
     assert str(one_way(groups)) == "T_Z+ T_X* T_N_Z+"
 
 
 def test_a_quick_movement_that_three_examples_share_is_mandatory():
-    main = [Stroke(Token.parse("T_Z"), 1.0), Stroke(Token.parse("T_X"), 0.05)]
+    main = [WeightedToken(Token.parse("T_Z"), 1.0), WeightedToken(Token.parse("T_X"), 0.05)]
     assert str(one_way(generalized([main] * 2))) == "T_Z+ T_X*"
     assert str(one_way(generalized([main] * 3))) == "T_Z+ T_X+"
 
@@ -191,7 +191,7 @@ def test_a_quick_movement_that_three_examples_share_is_mandatory():
 def test_one_token_too_many_shifts_nothing_here_and_everything_where_paired_by_index():
     names = [["T_Z", "T_N_Z", "T_Y"], ["T_X", "T_Z", "T_N_Z", "T_Y"]]
     words = [tuple(map(Token.parse, each)) for each in names]
-    ours = one_way(generalized([[Stroke(token, 1.0) for token in word] for word in words]))
+    ours = one_way(generalized([[WeightedToken(token, 1.0) for token in word] for word in words]))
     paper = learned_by_index(words, [[True] * len(word) for word in words])
     assert str(ours) == "T_X* T_Z+ T_N_Z+ T_Y+"
     assert str(paper) == "(T_Z|T_X)+ (T_N_Z|T_Z)+ (T_Y|T_N_Z)+ T_Y*"
@@ -200,7 +200,7 @@ def test_one_token_too_many_shifts_nothing_here_and_everything_where_paired_by_i
 
 
 def test_alternatives_at_one_place_are_a_choice():
-    ways = [[Stroke(Token.parse(name), 1.0)] for name in ("T_Z", "T_Y_Z", "T_X_Z")]
+    ways = [[WeightedToken(Token.parse(name), 1.0)] for name in ("T_Z", "T_Y_Z", "T_X_Z")]
     assert str(one_way(generalized(ways))) == "(T_Z|T_Y_Z|T_X_Z)+"
 
 
@@ -218,7 +218,7 @@ def test_a_hundred_examples_are_learned():
 
 def test_examples_that_share_in_turn_but_not_all_are_a_choice_of_ways():
     names = ["T_Z T_X", "T_X T_N_Y", "T_N_Y T_Z"]
-    given = [[Stroke(Token.parse(name), 1.0) for name in each.split()] for each in names]
+    given = [[WeightedToken(Token.parse(name), 1.0) for name in each.split()] for each in names]
     pattern = pattern_of(ways_of(given))
     assert len(ways_of(given)) == 2
     assert [distance(pattern, merged_tokens(word)) for word in given] == [0, 0, 0]

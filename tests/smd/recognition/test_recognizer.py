@@ -1,216 +1,214 @@
 from __future__ import annotations
 
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from actions_library.authoring.actions import HUMANOID_ACTIONS
 from smd.doodle import Doodle
-from smd.recognition.costs import DEFAULT_COSTS
+from smd.errors import LearningError
+from smd.geometry.rotations import multiply, quaternion_about, rotate
+from smd.recognition import Recognizer, learn_action
+from smd.recognition.acceptance import Intent
+from smd.recognition.action import Action
+from smd.recognition.exemplar import Exemplar
 from smd.recognition.pattern import Pattern
-from smd.recognition.recognizer import recognize
-from smd.recognition.tokenizer import tokenize
-from smd.recognition.tokens import STILL, Token, TokenRun
+from smd.recognition.verification import TERMS
 from smd.smoothing import smooth
-from smd.synthetic.efforts import ACTIONS
-from smd.synthetic.person import STEADY, simulated_person
+from smd.synthetic.curves import straight_line
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
+from tests.naive.streaming import spans_as_they_become_final
 
-# Those that tokens alone tell apart; tests of the whole library verify.
-PATTERNS = {a.name: a.pattern for a in HUMANOID_ACTIONS if a.name in ACTIONS}
-FEW = {
-    "walk": Pattern.parse("T_Z"),
-    "punch": Pattern.parse("T_Z T_N_Z"),
-    "turn": Pattern.parse("R_Y"),
-    "wave": Pattern.parse("T_X T_N_X T_X"),
-    "square": Pattern.parse("T_X T_Y T_N_X T_N_Y T_X"),
-}
+NAMES = ("walk", "jump", "punch", "throw", "turn_left", "bow")
 
 
-def runs_of(*what):
-    """Runs of (token, extent) pairs that last 0.3 s each; of stillness, the number is seconds."""
-    runs, now_s = [], 0.0
-    for i, (name, amount) in enumerate(what):
-        token = Token.parse(name)
-        end_s = now_s + (amount if token == STILL else 0.3)
-        travel = amount if token != STILL else 0.0
-        runs.append(TokenRun(token, 18 * i, 18 * i + 18, now_s, end_s, travel_heights=travel))
-        now_s = end_s
-    return tuple(runs)
+def take(rng, person, *actions):
+    made = Take(person, rng, heading_rad=rng.uniform(-3.0, 3.0)).pause(0.5)
+    for action in actions:
+        made.play(action).pause(0.5)
+    return made
 
 
-def actions(runs, patterns=FEW):
-    return [span.action for span in recognize(runs, patterns)]
+@pytest.fixture(scope="module")
+def player():
+    rng = np.random.default_rng(11)
+    return rng, simulated_person(rng)
 
 
-def scaled(doodle, factor):
-    return Doodle(doodle.time_s, factor * doodle.position_m, doodle.orientation_xyzw, doodle.device)
+@pytest.fixture(scope="module")
+def actions(player):
+    return [learn_action(n, [take(*player, n).doodle() for _ in range(3)]) for n in NAMES]
 
 
-def gesture_of(action, person, rng):
-    take = Take(person, rng, heading_rad=rng.uniform(-np.pi, np.pi))
-    take.pause(0.6).play(action).pause(0.6)
-    return take.doodle(), take.phrases[0]
+@pytest.fixture(scope="module")
+def recognizer(actions):
+    return Recognizer(actions)
 
 
-@pytest.mark.parametrize("factor", [0.5, 1.0, 2.0])
-@pytest.mark.parametrize("action", ACTIONS)
-def test_a_steady_hand_is_understood_at_any_size(action, factor):
-    doodle, meant = gesture_of(action, STEADY, np.random.default_rng(0))
-    (span,) = recognize(tokenize(smooth(scaled(doodle, factor))), PATTERNS)
-    assert span.action == action
-    assert abs(span.start_s - meant.start_s) < 0.1
-    assert abs(span.end_s - meant.end_s) < 0.1
+@pytest.mark.parametrize("name", NAMES)
+def test_a_gesture_learned_from_three_examples_is_ranked_first(player, recognizer, name):
+    matches = recognizer.rank(take(*player, name).doodle())
+    assert matches[0].action == name
+    assert [m.distance for m in matches] == sorted(m.distance for m in matches)
+    assert {m.action for m in matches} == {*NAMES, None}
+    assert sum(m.confidence for m in matches) == pytest.approx(1.0)
 
 
-def test_simulated_people_are_understood():
-    understood = 0
-    for seed in range(12):
-        rng = np.random.default_rng([5, seed])
-        person = simulated_person(rng)
-        for action in ACTIONS:
-            doodle, _ = gesture_of(action, person, rng)
-            understood += actions(tokenize(smooth(doodle)), PATTERNS) == [action]
-    assert understood >= 0.97 * 12 * len(ACTIONS)
+def test_the_terms_of_a_match_add_up_to_its_distance(player, recognizer):
+    for match in recognizer.rank(take(*player, "jump").doodle()):
+        if match.action:
+            assert tuple(name for name, _ in match.terms) == TERMS
+            assert sum(value for _, value in match.terms) == pytest.approx(match.distance)
 
 
-def test_stillness_is_nothing():
-    assert recognize((), PATTERNS) == ()
-    assert recognize(runs_of(("STILL", 5.0)), PATTERNS) == ()
+def test_actions_in_a_row_are_found_where_they_are(player, recognizer):
+    made = take(*player, "walk", "punch", "bow", "throw", "turn_left", "jump")
+    spans = recognizer.spot(made.doodle())
+    assert [span.action for span in spans] == [phrase.action for phrase in made.phrases]
+    for span, phrase in zip(spans, made.phrases, strict=True):
+        assert abs(span.start_s - phrase.start_s) < 0.2
+        assert abs(span.end_s - phrase.end_s) < 0.2
+        assert 0.5 < span.confidence <= 1.0
+        assert span.action not in dict(span.alternatives)
+    ends = [time for span in spans for time in (span.start_s, span.end_s)]
+    assert ends == sorted(ends)
 
 
-def test_aimless_movement_is_nothing():
-    aimless = runs_of(("T_Y/R_X", 0.5), ("T_X_Y/R_Z", 0.4), ("R_Z", 0.6), ("T_N_Y/R_Z", 1.0))
-    assert recognize(aimless, PATTERNS) == ()
+def test_where_the_user_stands_does_not_matter(player, recognizer):
+    doodle = take(*player, "walk", "throw").doodle()
+    turn = quaternion_about([0.0, 1.0, 0.0], 1.3)
+    elsewhere = replace(
+        doodle,
+        position_m=np.add(rotate(turn, doodle.position_m), [1.0, 2.0, 3.0]),
+        orientation_xyzw=multiply(turn, doodle.orientation_xyzw),
+    )
+    a, b = (recognizer.spot(one) for one in (doodle, elsewhere))
+    assert [span.action for span in a] == [span.action for span in b]
+    assert [span.distance for span in a] == pytest.approx([s.distance for s in b], abs=1e-3)
 
 
-def test_a_little_movement_is_nothing():
-    needed = DEFAULT_COSTS.worth * DEFAULT_COSTS.action / DEFAULT_COSTS.unexplained
-    assert actions(runs_of(("T_Z", 0.95 * needed))) == []
-    assert actions(runs_of(("T_Z", 1.05 * needed))) == ["walk"]
+def test_a_gesture_that_was_not_taught_is_none(player, actions):
+    only_turning = Recognizer([a for a in actions if a.name in ("turn_left", "bow")])
+    doodle = take(*player, "throw").doodle()
+    assert only_turning.rank(doodle)[0].action is None
+    assert only_turning.spot(doodle) == []
 
 
-def test_a_pause_parts_two_walks_and_a_moment_does_not():
-    pause_s = DEFAULT_COSTS.pause_s
-    assert actions(runs_of(("T_Z", 2.0), ("STILL", 1.1 * pause_s), ("T_Z", 2.0))) == ["walk"] * 2
-    assert actions(runs_of(("T_Z", 2.0), ("STILL", 0.9 * pause_s), ("T_Z", 2.0))) == ["walk"]
+def test_a_lower_tolerance_rejects_more(player, actions):
+    doodle = take(*player, "walk", "punch", "bow").doodle()
+    assert Recognizer(actions, tolerance=0.05).spot(doodle) == []
 
 
-def test_a_gesture_may_be_held_half_way():
-    held = runs_of(("R_X", 1.0), ("STILL", 1.1), ("R_N_X", 1.0))
-    (span,) = recognize(held, PATTERNS)
-    assert (span.action, span.first_run, span.last_run) == ("bow", 0, 3)
-    assert actions(runs_of(("R_X", 1.0), ("STILL", 1.3), ("R_N_X", 1.0)), PATTERNS) == []
+def test_what_is_drawn_is_found_sooner_than_what_is_not_said_to_be_meant(player, actions):
+    doodle = take(*player, "walk", "punch", "bow").doodle()
+    drawn = replace(doodle, drawing=np.ones(len(doodle), bool))
+    tight = Recognizer(actions, tolerance=0.2)
+    assert (tight.intent_of(doodle), tight.intent_of(drawn)) == (Intent.FREE, Intent.DRAWN)
+    assert len(tight.spot(drawn)) > len(tight.spot(doodle))
+    forced = Recognizer(actions, tolerance=0.2, intent=Intent.DRAWN)
+    assert [s.action for s in forced.spot(doodle)] == [s.action for s in tight.spot(drawn)]
 
 
-def test_a_slip_within_a_walk_does_not_part_it():
-    (span,) = recognize(runs_of(("T_Z", 2.0), ("T_X_Y", 0.1), ("T_Z", 2.0)), FEW)
-    assert (span.first_run, span.last_run) == (0, 3)
+@pytest.mark.parametrize("name", NAMES)
+def test_a_gesture_without_rest_around_it_is_found(player, recognizer, name):
+    """The hand comes from above and goes there again; it does not rest in between."""
+    made = take(np.random.default_rng(3), player[1], name)
+    (phrase,) = made.phrases
+    doodle = made.doodle()
+    inside = (doodle.time_s >= phrase.start_s) & (doodle.time_s <= phrase.end_s)
+    gesture = doodle.position_m[inside]
+    u = np.linspace(0.0, 1.0, 60)[:, None]
+    way = np.array([0.05, 0.3, -0.05]) * u**2
+    position = np.concatenate([gesture[0] + way[::-1], gesture, gesture[-1] + way])
+    q = doodle.orientation_xyzw[inside]
+    orientation = np.concatenate([np.tile(q[0], (60, 1)), q, np.tile(q[-1], (60, 1))])
+    step_s = doodle.duration_s / (len(doodle) - 1)
+    moving = Doodle(step_s * np.arange(len(position)), position, orientation)
+    spans = recognizer.spot(moving)
+    assert [span.action for span in spans] == [name]
+    assert abs(spans[0].start_s - 60 * step_s) < 0.25
+    assert abs(spans[0].end_s - step_s * (60 + len(gesture))) < 0.25
 
 
-def test_the_rebound_of_a_walk_is_not_a_punch():
-    assert actions(runs_of(("T_Z", 2.0), ("T_N_Z", 0.08))) == ["walk"]
-    assert actions(runs_of(("T_Z", 2.0), ("STILL", 0.05), ("T_N_Z", 0.08))) == ["walk"]
-    assert actions(runs_of(("T_Z", 1.0), ("T_N_Z", 0.9))) == ["punch"]
+def test_stillness_is_no_action(recognizer):
+    still = straight_line(length_m=0.0, duration_s=1.0)
+    assert recognizer.spot(still) == []
+    (match,) = recognizer.rank(still)
+    assert (match.action, match.confidence) == (None, 1.0)
 
 
-def test_an_action_does_not_reach_over_other_movement():
-    between = [("T_Y/R_X", 1.0), ("T_X/R_Z", 1.0), ("T_Y/R_Z", 1.0)]
-    assert "punch" not in actions(runs_of(("T_Z", 1.0), *between, ("T_N_Z", 1.0)))
+def test_without_actions_nothing_is_found(player):
+    doodle = take(*player, "walk").doodle()
+    assert Recognizer([]).spot(doodle) == []
+    assert Recognizer([]).rank(doodle)[0].action is None
 
 
-def test_one_wrong_stroke_among_many_is_forgiven():
-    rung = [("T_X", 1.0), ("T_N_X", 1.0), ("T_X_Y", 1.0)]
-    (span,) = recognize(runs_of(*rung), FEW)
-    assert (span.action, span.distance) == ("wave", 1.0)
+def test_an_action_written_by_hand_is_found_beside_learned_ones(player, actions):
+    turn = Action("swivel", Pattern.parse("(R_Y|R_X_Y|R_N_X_Y|R_Y_Z|R_Y_N_Z)+"))
+    others = [action for action in actions if action.name != "turn_left"]
+    spans = Recognizer([*others, turn]).spot(take(*player, "walk", "turn_left", "bow").doodle())
+    assert [span.action for span in spans] == ["walk", "swivel", "bow"]
 
 
-def test_an_action_does_not_stretch_over_the_rest_beside_it():
-    square = [("T_X", 1.0), ("T_Y", 1.0), ("T_N_X", 1.0), ("T_N_Y", 1.0), ("T_X", 1.0)]
-    rest = ("STILL", 2.0)
-    for what in ([rest, *square[1:]], [*square[:-1], rest]):
-        (span,) = recognize(runs_of(*what), FEW)
-        assert (span.action, span.distance) == ("square", 1.0)
-        assert span.last_run - span.first_run == 4
+def test_one_example_is_enough_and_none_is_not(player):
+    action = learn_action("jump", [take(*player, "jump").doodle()])
+    assert len(action.exemplar) == 1
+    assert Recognizer([action]).rank(take(*player, "jump").doodle())[0].action == "jump"
+    with pytest.raises(LearningError):
+        learn_action("jump", [])
 
 
-def test_small_runs_that_lead_into_an_action_belong_to_it():
-    setting_out = runs_of(("STILL", 1.0), ("T_Y_Z", 0.03), ("T_Z", 2.0), ("T_N_Y_Z", 0.03))
-    (span,) = recognize(setting_out, FEW)
-    assert (span.first_run, span.last_run) == (1, 4)
-    (span,) = recognize(runs_of(("T_X", 0.03), ("T_Z", 2.0), ("T_N_Z", 0.03)), FEW)
-    assert (span.first_run, span.last_run) == (1, 2)
+def test_an_exemplar_survives_its_arrays(actions):
+    for action in actions:
+        again = Exemplar.from_arrays(action.exemplar.to_arrays())
+        for key, array in action.exemplar.to_arrays().items():
+            assert np.array_equal(array, again.to_arrays()[key])
+        assert np.array_equal(action.exemplar.scale, again.scale)
 
 
-def test_alternatives_are_the_other_actions_nearest_first():
-    (span,) = recognize(runs_of(("T_Z", 1.0), ("T_N_Z", 1.0)), FEW)
-    assert span.distance == 0.0
-    assert sorted(name for name, _ in span.alternatives) == ["square", "turn", "walk", "wave"]
-    distances = [distance for _, distance in span.alternatives]
-    assert distances == sorted(distances)
-    assert span.alternatives[0] == ("walk", 1.0)
-
-
-def test_confidence_falls_with_distance_and_with_rivals():
-    (clear,) = recognize(runs_of(("T_Z", 1.0), ("T_N_Z", 1.0)), FEW)
-    (faint,) = recognize(runs_of(("T_Z", 0.3), ("T_N_Z", 0.3)), FEW)
-    (held,) = recognize(runs_of(("T_Z", 1.0), ("STILL", 0.5), ("T_N_Z", 1.0)), FEW)
-    rivals = {**FEW, "poke": Pattern.parse("T_Z T_N_Z T_Z*")}
-    (contested,) = recognize(runs_of(("T_Z", 1.0), ("T_N_Z", 1.0)), rivals)
-    assert clear.confidence > max(faint.confidence, held.confidence, contested.confidence)
-    assert contested.confidence < 0.5
-    assert contested.alternatives[0] == ("poke", 0.0)
-
-
-run_lists = st.lists(
-    st.tuples(
-        st.sampled_from(["STILL", "T_Z", "T_N_Z", "T_X", "T_N_X", "R_Y", "T_Y", "T_Z/R_Y"]),
-        st.floats(0.01, 3.0),
-    ),
-    max_size=14,
-)
-
-
-@settings(deadline=None)
-@given(run_lists)
-def test_spans_are_in_order_and_begin_and_end_with_movement(what):
-    runs = runs_of(*what)
-    spans = recognize(runs, FEW)
-    for before, after in pairwise(spans):
-        assert before.last_run <= after.first_run
-    for span in spans:
-        assert runs[span.first_run].token != STILL
-        assert runs[span.last_run - 1].token != STILL
-        assert span.start_s == runs[span.first_run].start_s
-        assert span.end_s == runs[span.last_run - 1].end_s
-        assert 0.0 <= span.confidence <= 1.0
-        assert span.distance >= 0.0
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_where_the_user_stands_and_faces_changes_nothing(seed):
+def test_its_stream_finds_what_it_spots(player, recognizer):
+    doodle = take(*player, "bow", "jump", "turn_left").pause(1.0).doodle()
+    stream = recognizer.stream()
     spans = []
-    for heading_rad, start_m in ((0.3, (0.0, 0.8, 0.0)), (2.1, (3.0, 1.2, -7.0))):
-        rng = np.random.default_rng(seed)
-        take = Take(simulated_person(rng), rng, heading_rad=heading_rad, start_m=start_m)
-        for action in ACTIONS:
-            take.pause(0.6).play(action)
-        spans.append(recognize(tokenize(smooth(take.pause(0.6).doodle())), PATTERNS))
-    assert [s.action for s in spans[0]] == [s.action for s in spans[1]]
-    assert [s.start_s for s in spans[0]] == pytest.approx([s.start_s for s in spans[1]], abs=0.02)
+    for sample in zip(doodle.time_s, doodle.position_m, doodle.orientation_xyzw, strict=True):
+        spans += stream.push(*sample)
+    spans += stream.finish()
+    offline = recognizer.spot(doodle)
+    assert [span.action for span in spans] == [span.action for span in offline]
+    for ours, theirs in zip(spans, offline, strict=True):
+        assert ours.start_s == pytest.approx(theirs.start_s, abs=0.05)
+        assert ours.end_s == pytest.approx(theirs.end_s, abs=0.05)
 
 
-def test_idle_hands_are_mostly_left_alone(shared_data):
-    from smd.formats import SourceFrame, read_recording
+def test_its_stream_weighs_each_stretch_once_and_says_the_same(player, recognizer):
+    """What it remembers does not matter: the oracle weighs everything again at every look."""
+    doodle = take(*player, "punch", "walk", "bow").doodle()
+    stream = recognizer.stream()
+    samples = zip(doodle.time_s, doodle.position_m, doodle.orientation_xyzw, strict=True)
+    spans = [span for sample in samples for span in stream.push(*sample)]
+    told = [(span.action, span.start_s, span.end_s) for span in spans]
+    assert len(told) >= 2  # the last may not be final yet
+    assert [action for action, _, _ in told] == ["punch", "walk", "bow"][: len(told)]
+    assert told == spans_as_they_become_final(doodle, recognizer)[: len(told)]
 
-    spans = minutes = 0.0
-    for path in sorted((shared_data / "idle").glob("*.csv"))[:6]:
-        for doodle in read_recording(path, SourceFrame(handedness="left")).doodles:
-            if doodle.duration_s > 0.2:
-                minutes += doodle.duration_s / 60.0
-                spans += len(recognize(tokenize(smooth(doodle)), PATTERNS))
-    assert minutes > 2.0
-    assert spans / minutes < 10.0
+
+def test_no_alternative_is_nearer_than_the_action(player, recognizer):
+    doodle = take(*player, "throw", "jump").doodle()
+    spans = recognizer.spot(doodle)
+    assert [span.action for span in spans] == ["throw", "jump"]
+    assert any(span.alternatives for span in spans)
+    for span in spans:
+        assert all(distance >= span.distance for _, distance in span.alternatives)
+
+
+def test_stretches_are_weighed_as_their_spans_are_named(player, recognizer):
+    doodle = take(*player, "walk", "punch", "bow").doodle()
+    motion = smooth(doodle)
+    runs = recognizer.runs_of(doodle, motion)
+    spans = recognizer.spot_runs(motion, runs)
+    weighed = recognizer.weigh(motion, runs, [(span.start_s, span.end_s) for span in spans])
+    for span, (best, *_) in zip(spans, weighed, strict=True):
+        assert (best.action, best.distance) == (span.action, pytest.approx(span.distance))
+        assert best.distance <= best.most < np.inf
+    assert recognizer.weigh(motion, runs, []) == []

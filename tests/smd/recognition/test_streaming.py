@@ -10,8 +10,8 @@ from actions_library.authoring.actions import HUMANOID_ACTIONS
 from smd.errors import DoodleError
 from smd.formats import read_recording
 from smd.recognition.bank import compile_library
-from smd.recognition.recognizer import TokenSpotter, recognize
 from smd.recognition.streaming import HORIZON_S, RecognitionStream
+from smd.recognition.token_spotter import TokenSpotter, recognize
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 from smd.synthetic.efforts import ACTIONS

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from smd.errors import PatternError
-from smd.recognition.token_costs import TokenCosts, codes_of, graded_costs, unit_costs
-from smd.recognition.tokenizer import DIRECTIONS
-from smd.recognition.tokens import Token
+from smd.recognition.alphabet import BINS, DIRECTIONS
+from smd.recognition.token_costs import TokenCosts, graded_costs, unit_costs
+from smd.recognition.tokens import Token, bins_of, bins_of_codes, code_of_bins, codes_of
 
 ALL = [Token(t, r) for t in DIRECTIONS for r in DIRECTIONS]
 
@@ -16,7 +16,9 @@ def price(a, b, costs=None):
 
 
 def test_every_token_has_a_code_of_its_own():
-    assert codes_of(ALL).tolist() == list(range(729))
+    assert codes_of(ALL).tolist() == list(range(BINS**2))
+    assert np.array_equal(bins_of_codes(codes_of(ALL)), bins_of(ALL))
+    assert np.array_equal(code_of_bins(*bins_of(ALL)), codes_of(ALL))
 
 
 def test_unit_costs_tell_equal_from_different():
@@ -53,7 +55,21 @@ def test_a_half_turn_of_the_world_changes_no_cost():
     assert np.array_equal(costs.between(ALL, ALL), costs.between(turned, turned))
 
 
-@pytest.mark.parametrize("wrong", [np.zeros((729, 729)), 2.0 - 2.0 * np.eye(729), np.eye(729)])
-def test_costs_that_are_none_are_refused(wrong):
-    with pytest.raises(PatternError, match="expected a symmetric matrix"):
-        TokenCosts("wrong", wrong)
+def test_two_tables_say_what_one_of_all_pairs_would():
+    rng = np.random.default_rng(4)
+    parts = np.tril(rng.uniform(0.01, 1.0, (2, BINS, BINS)), -1)
+    translation, rotation = parts + parts.transpose(0, 2, 1)
+    found = TokenCosts("random", translation, rotation).between(ALL, ALL)
+    every = translation[:, None, :, None] + rotation[None, :, None, :]
+    exact = np.minimum(every.reshape(BINS**2, BINS**2), 1.0)
+    assert np.array_equal(found * 64.0, np.round(found * 64.0))
+    assert ((found >= exact - 1e-9) & (found < exact + 1.0 / 64.0)).all()
+    assert np.array_equal(found, found.T)
+
+
+@pytest.mark.parametrize("part", ["translation", "rotation"])
+@pytest.mark.parametrize("wrong", [np.zeros((BINS, BINS)), 2.0 - 2.0 * np.eye(BINS), np.eye(BINS)])
+def test_costs_that_are_none_are_refused(part, wrong):
+    right = {"translation": unit_costs().translation, "rotation": unit_costs().rotation}
+    with pytest.raises(PatternError, match=f"{part}: expected a symmetric matrix"):
+        TokenCosts("wrong", **{**right, part: wrong})

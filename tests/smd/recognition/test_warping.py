@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from smd.recognition import warping
-from smd.recognition.warping import Examples
+from smd.recognition.warping import Templates
 from tests.naive.warping import table_distance
 
 
@@ -36,7 +36,7 @@ def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, lanes, cell
     courses = courses_at_random(rng, 14, samples, 3)
     action = rng.integers(0, 3, len(courses))  # as it comes, not sorted
     expected = nearest_by_tables(examples, courses, action, band)
-    found = Examples(examples, band).nearest(courses, action, np.full(len(courses), np.inf))
+    found = Templates(examples, band).nearest(courses, action, np.full(len(courses), np.inf))
     np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
@@ -46,16 +46,16 @@ def test_an_example_is_as_far_as_its_factor_says():
     courses, action = courses_at_random(rng, 30, 8, 3), rng.integers(0, 3, 30)
     factors = tuple(rng.uniform(1.0, 3.0, len(each)) for each in examples)
     expected = nearest_by_tables(examples, courses, action, 0.25, factors)
-    far = Examples(examples, 0.25, factors)
+    far = Templates(examples, 0.25, factors)
     found = far.nearest(courses, action, np.full(30, np.inf))
     np.testing.assert_allclose(found, expected, rtol=1e-12)
     assert np.array_equal(far.nearest(courses, action, found), found)
-    assert (found > Examples(examples, 0.25).nearest(courses, action, np.full(30, np.inf))).any()
+    assert (found > Templates(examples, 0.25).nearest(courses, action, np.full(30, np.inf))).any()
 
 
 def test_what_is_farther_than_wanted_is_infinite_and_the_rest_as_before():
     rng = np.random.default_rng(1)
-    examples = Examples(tuple(courses_at_random(rng, 5, 8, 2) for _ in range(3)), 0.25)
+    examples = Templates(tuple(courses_at_random(rng, 5, 8, 2) for _ in range(3)), 0.25)
     courses, action = courses_at_random(rng, 40, 8, 2), np.repeat([0, 1, 2, 0], 10)
     free = examples.nearest(courses, action, np.full(40, np.inf))
     for most in (free, np.nextafter(free, 0.0), np.full(40, np.median(free)), np.full(40, -1.0)):
@@ -67,7 +67,7 @@ def test_what_is_farther_than_wanted_is_infinite_and_the_rest_as_before():
 def test_no_example_is_nearer_than_the_box_around_them_says(band):
     rng = np.random.default_rng(4)
     own = tuple(courses_at_random(rng, count, 9, 2) for count in (1, 3))
-    examples, action = Examples(own, band), np.repeat([0, 1], 20)
+    examples, action = Templates(own, band), np.repeat([0, 1], 20)
     courses = 0.5 * courses_at_random(rng, 40, 9, 2)
     least = examples.at_least(courses, action)
     far = examples.nearest(courses, action, np.full(40, np.inf))
@@ -83,13 +83,13 @@ def test_single_precision_decides_nothing(offset):
     course = courses_at_random(rng, 1, 8, 3) + offset
     examples = course + 1e-5 * rng.normal(size=(6, 8, 3))
     expected = nearest_by_tables((examples,), course, [0], 0.25)
-    found = Examples((examples,), 0.25).nearest(course, np.array([0]), np.array([np.inf]))
+    found = Templates((examples,), 0.25).nearest(course, np.array([0]), np.array([np.inf]))
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
 def test_an_example_is_no_distance_from_itself_and_nothing_from_nothing():
     rng = np.random.default_rng(3)
     own = courses_at_random(rng, 4, 8, 2)
-    examples = Examples((own,), 0.25)
+    examples = Templates((own,), 0.25)
     assert np.array_equal(examples.nearest(own, np.zeros(4, int), np.zeros(4)), np.zeros(4))
     assert examples.nearest(own[:0], np.zeros(0, int), np.zeros(0)).shape == (0,)

@@ -10,7 +10,7 @@ from smd.doodle import Doodle
 from smd.formats import read_recording
 from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import multiply, quaternion_about, rotate
-from smd.recognition.recognizer import recognize
+from smd.recognition.token_spotter import recognize
 from smd.recognition.tokenizer import tokenize
 from smd.score_file import read_score
 from smd.smoothing import smooth

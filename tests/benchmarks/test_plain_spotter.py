@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.composed import RATE_HZ, compose, resampled
-from benchmarks.spotter import Spotter, best_apart, parting_threshold
+from benchmarks.plain_spotter import PlainSpotter, best_apart, parting_threshold
 from benchmarks.tally import Named
 from tests.benchmarks.conftest import stroke
 
@@ -21,7 +21,7 @@ def spotter():
         str(label): [resampled(stroke(label, i), RATE_HZ) for i in range(50, 55)]
         for label in LABELS
     }
-    return Spotter(examples)
+    return PlainSpotter(examples)
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ import pytest
 
 from smd.doodle import Doodle
 from smd.errors import DoodleError
-from smd.recognition.smoothing_stream import SmoothingStream, arrays_of
 from smd.smoothing import smooth
+from smd.smoothing_stream import SmoothingStream, arrays_of
 from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 

@@ -3,13 +3,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks.greedy import MOST_EDITS, MOST_WRONG, longest_match_segments
 from smd.recognition.automaton import compile_automaton, edit_distance
 from smd.recognition.bank import compile_library
 from smd.recognition.costs import DEFAULT_COSTS
-from smd.recognition.greedy import MOST_EDITS, MOST_WRONG, longest_match_segments
 from smd.recognition.pattern import Pattern
-from smd.recognition.recognizer import recognize
 from smd.recognition.segmentation import Segment
+from smd.recognition.token_spotter import recognize
 from smd.recognition.tokens import Token, TokenRun
 
 PATTERNS = {

@@ -19,7 +19,7 @@ from smd.doodle import Doodle
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import normalized, rotate
 from smd.recognition.alignment import distance_table
-from smd.recognition.warping import Examples
+from smd.recognition.warping import Templates
 
 SAMPLES, BAND = 32, 0.15
 SCALES, STEP_S = (0.7, 1.0, 1.4), 0.1
@@ -33,7 +33,7 @@ SMOOTHED_S = 0.15
 SPLICED, SEED = 300, 0
 
 
-class Spotter:
+class PlainSpotter:
     """Finds actions by their examples.
 
     Parameters
@@ -48,7 +48,7 @@ class Spotter:
         courses = {
             name: np.concatenate([_course(each) for each in own]) for name, own in smoothed.items()
         }
-        self._examples = Examples(tuple(courses.values()), BAND)
+        self._examples = Templates(tuple(courses.values()), BAND)
         self._usual_s = {
             name: float(np.median([each.duration_s for each in own]))
             for name, own in smoothed.items()

@@ -1,4 +1,4 @@
-"""Places: several token sequences laid side by side, so that like tokens stand at one place."""
+"""Progressive alignment: several token sequences side by side, like tokens in one column."""
 
 from __future__ import annotations
 
@@ -8,17 +8,16 @@ from functools import cache
 
 import numpy as np
 
-from smd.geometry.arrays import FloatArray, IntArray
-from smd.geometry.rotations import normalized
-from smd.recognition.tokenizer import DIRECTIONS, NONE
-from smd.recognition.tokens import Token
+from smd.geometry.arrays import FloatArray
+from smd.recognition.alphabet import NONE, angles_rad
+from smd.recognition.tokens import Token, bins_of
 
 UNLIKE = 1.0 - 1e-9
 """Tokens at this distance or more have nothing in common; the sums of shares round."""
 
 
 @dataclass(frozen=True, slots=True)
-class Stroke:
+class WeightedToken:
     """A token of a sequence, and how much of the sequence's movement it is.
 
     Attributes
@@ -32,30 +31,30 @@ class Stroke:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
-    """What sequences have at one place.
+class Column:
+    """What several aligned sequences have side by side.
 
     Attributes
     ----------
-    strokes : one per sequence, None where a sequence has nothing there; not all None.
+    entries : one per sequence, None where a sequence has a gap; not all None.
     """
 
-    strokes: tuple[Stroke | None, ...]
+    entries: tuple[WeightedToken | None, ...]
 
     @property
     def tokens(self) -> frozenset[Token]:
         """What stands here in any sequence."""
-        return frozenset(stroke.token for stroke in self.strokes if stroke)
+        return frozenset(entry.token for entry in self.entries if entry)
 
     @property
     def weight(self) -> float:
-        """Mean weight over all sequences, nothing counting as 0."""
-        return sum(stroke.weight for stroke in self.strokes if stroke) / len(self.strokes)
+        """Mean weight over all sequences, a gap counting as 0."""
+        return sum(entry.weight for entry in self.entries if entry) / len(self.entries)
 
     @property
     def is_full(self) -> bool:
-        """Whether no sequence is without a token here."""
-        return None not in self.strokes
+        """Whether no sequence has a gap here."""
+        return None not in self.entries
 
 
 def token_distances(tokens: Sequence[Token], others: Sequence[Token]) -> FloatArray:
@@ -66,7 +65,7 @@ def token_distances(tokens: Sequence[Token], others: Sequence[Token]) -> FloatAr
     else.
     """
     total, parts = np.zeros((2, len(tokens), len(others)))
-    for ours, theirs in zip(_bins(tokens), _bins(others), strict=True):
+    for ours, theirs in zip(bins_of(tokens), bins_of(others), strict=True):
         total += _apart()[np.ix_(ours, theirs)]
         parts += (ours[:, None] != NONE) | (theirs != NONE)
     return total / np.maximum(parts, 1.0)
@@ -77,13 +76,13 @@ def token_distance(a: Token, b: Token) -> float:
     return float(token_distances((a,), (b,))[0, 0])
 
 
-def laid_side_by_side(sequences: Sequence[Sequence[Stroke]]) -> tuple[Place, ...]:
-    """Lay sequences side by side at the least cost found by adding one after another.
+def progressively_aligned(sequences: Sequence[Sequence[WeightedToken]]) -> tuple[Column, ...]:
+    """Align sequences at the least cost found by adding one after another.
 
-    Progressive alignment [1]_: the first sequence makes the places; each next one, the most like
-    it first, is aligned to the places so far. A token without a partner costs its weight, a place
-    passed over the mean weight of what stands there, and a token at a place their mean distance
-    times both. Tokens that are unlike (`token_distance` of 1) never share a place.
+    Progressive alignment [1]_: the first sequence makes the columns; each next one, the most like
+    it first, is aligned to the columns so far. A token without a partner costs its weight, a gap in
+    a column the mean weight of what stands there, and a token in a column their mean distance
+    times both. Tokens that are unlike (`token_distance` of 1) never share a column.
 
     Parameters
     ----------
@@ -92,7 +91,7 @@ def laid_side_by_side(sequences: Sequence[Sequence[Stroke]]) -> tuple[Place, ...
 
     Returns
     -------
-    tuple of Place
+    tuple of Column
         Every sequence reads through them from left to right.
 
     References
@@ -100,10 +99,10 @@ def laid_side_by_side(sequences: Sequence[Sequence[Stroke]]) -> tuple[Place, ...
     .. [1] D.-F. Feng, R. F. Doolittle, "Progressive sequence alignment as a prerequisite to
        correct phylogenetic trees", Journal of Molecular Evolution 25(4), 1987.
     """
-    first = [[stroke] for stroke in sequences[0]]
+    first = [[entry] for entry in sequences[0]]
     to_first = [_aligned(first, sequence)[0] for sequence in sequences]
     order = [0, *sorted(range(1, len(sequences)), key=to_first.__getitem__)]
-    columns: list[list[Stroke | None]] = [[stroke] for stroke in sequences[0]]
+    columns: list[list[WeightedToken | None]] = [[entry] for entry in sequences[0]]
     for added, index in enumerate(order[1:], start=1):
         _, pairs = _aligned(columns, sequences[index])
         columns = [
@@ -114,16 +113,7 @@ def laid_side_by_side(sequences: Sequence[Sequence[Stroke]]) -> tuple[Place, ...
             for column, item in pairs
         ]
     back = np.argsort(order)
-    return tuple(Place(tuple(column[i] for i in back)) for column in columns)
-
-
-def _bins(tokens: Sequence[Token]) -> IntArray:
-    """Return ``(2, n)``: the bins of the tokens' translations and of their rotations."""
-    pairs = [(_INDEX[token.translation], _INDEX[token.rotation]) for token in tokens]
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T
-
-
-_INDEX = {direction: index for index, direction in enumerate(DIRECTIONS)}
+    return tuple(Column(tuple(column[i] for i in back)) for column in columns)
 
 
 @cache
@@ -132,20 +122,18 @@ def _apart() -> FloatArray:
 
     It is 1 where only one of them is none, 0 where both are.
     """
-    units = normalized(np.array(DIRECTIONS, dtype=np.float64))
-    angle = np.arccos(np.clip(units @ units.T, -1.0, 1.0)) / (0.5 * np.pi)
-    apart = np.minimum(angle, 1.0)
+    apart = np.minimum(angles_rad() / (0.5 * np.pi), 1.0)
     np.fill_diagonal(apart, 0.0)
     return apart
 
 
 def _aligned(
-    columns: Sequence[Sequence[Stroke | None]], sequence: Sequence[Stroke]
+    columns: Sequence[Sequence[WeightedToken | None]], sequence: Sequence[WeightedToken]
 ) -> tuple[float, list[tuple[int | None, int | None]]]:
     """Return the least cost of aligning a sequence to columns, and the pairs, in order."""
     m, n = len(columns), len(sequence)
     passed = [sum(s.weight for s in column if s) / len(column) for column in columns]
-    alone = [stroke.weight for stroke in sequence]
+    alone = [entry.weight for entry in sequence]
     unlike = _mean_distances(columns, sequence)
     cost = np.zeros((m + 1, n + 1)).tolist()
     for i in range(m + 1):
@@ -182,14 +170,14 @@ def _ways(
 
 
 def _mean_distances(
-    columns: Sequence[Sequence[Stroke | None]], sequence: Sequence[Stroke]
+    columns: Sequence[Sequence[WeightedToken | None]], sequence: Sequence[WeightedToken]
 ) -> FloatArray:
     """Return ``(columns, items)``: the mean distance of a column's tokens to each item's."""
-    held = [[stroke.token for stroke in column if stroke] for column in columns]
+    held = [[entry.token for entry in column if entry] for column in columns]
     tokens = tuple(dict.fromkeys(token for column in held for token in column))
     place = {token: i for i, token in enumerate(tokens)}
     share = np.zeros((len(columns), len(tokens)))
     for i, column in enumerate(held):
         for token in column:
             share[i, place[token]] += 1.0 / len(column)
-    return share @ token_distances(tokens, [stroke.token for stroke in sequence])
+    return share @ token_distances(tokens, [entry.token for entry in sequence])

@@ -7,42 +7,46 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from smd.recognition.places import Stroke, laid_side_by_side, token_distance
-from smd.recognition.tokenizer import DIRECTIONS
+from smd.recognition.alphabet import DIRECTIONS
+from smd.recognition.progressive_alignment import (
+    WeightedToken,
+    progressively_aligned,
+    token_distance,
+)
 from smd.recognition.tokens import STILL, Token
 
 TOKENS = tuple(map(Token.parse, ("T_Z", "T_Y_Z", "T_Y", "R_Y", "T_Z/R_Y", "STILL")))
-strokes = st.builds(Stroke, st.sampled_from(TOKENS), st.floats(0.02, 1.0))
+strokes = st.builds(WeightedToken, st.sampled_from(TOKENS), st.floats(0.02, 1.0))
 sequences = st.lists(st.lists(strokes, min_size=1, max_size=7), min_size=1, max_size=5)
 
 
 def of(text):
-    return [Stroke(Token.parse(name), 1.0) for name in text.split()]
+    return [WeightedToken(Token.parse(name), 1.0) for name in text.split()]
 
 
-def names(place):
-    return [str(stroke.token) if stroke else "-" for stroke in place.strokes]
+def names(column):
+    return [str(stroke.token) if stroke else "-" for stroke in column.entries]
 
 
 @settings(max_examples=200, deadline=None)
 @given(sequences)
 def test_every_sequence_reads_through_the_places_from_left_to_right(given):
-    places = laid_side_by_side(given)
+    columns = progressively_aligned(given)
     for i, sequence in enumerate(given):
-        assert [place.strokes[i] for place in places if place.strokes[i]] == sequence
-    assert all(any(place.strokes) for place in places)
+        assert [column.entries[i] for column in columns if column.entries[i]] == sequence
+    assert all(any(column.entries) for column in columns)
 
 
 @settings(max_examples=100, deadline=None)
 @given(st.lists(strokes, min_size=1, max_size=7), st.integers(1, 4))
 def test_equal_sequences_share_every_place(sequence, count):
-    places = laid_side_by_side([sequence] * count)
-    assert [place.strokes for place in places] == [(stroke,) * count for stroke in sequence]
+    columns = progressively_aligned([sequence] * count)
+    assert [column.entries for column in columns] == [(stroke,) * count for stroke in sequence]
 
 
 def test_one_token_too_many_shifts_nothing():
-    places = laid_side_by_side([of("T_Z T_N_Z T_Y"), of("T_X T_Z T_N_Z T_Y"), of("T_Z T_Y")])
-    assert [names(place) for place in places] == [
+    columns = progressively_aligned([of("T_Z T_N_Z T_Y"), of("T_X T_Z T_N_Z T_Y"), of("T_Z T_Y")])
+    assert [names(column) for column in columns] == [
         ["-", "T_X", "-"],
         ["T_Z", "T_Z", "T_Z"],
         ["T_N_Z", "T_N_Z", "-"],
@@ -51,17 +55,17 @@ def test_one_token_too_many_shifts_nothing():
 
 
 def test_neighbouring_directions_share_a_place_and_opposite_ones_do_not():
-    near = laid_side_by_side([of("T_Z T_N_Y"), of("T_Y_Z T_N_Y")])
-    assert [names(place) for place in near] == [["T_Z", "T_Y_Z"], ["T_N_Y", "T_N_Y"]]
-    far = laid_side_by_side([of("T_Z"), of("T_N_Z")])
-    assert all(None in place.strokes for place in far)
+    near = progressively_aligned([of("T_Z T_N_Y"), of("T_Y_Z T_N_Y")])
+    assert [names(column) for column in near] == [["T_Z", "T_Y_Z"], ["T_N_Y", "T_N_Y"]]
+    far = progressively_aligned([of("T_Z"), of("T_N_Z")])
+    assert all(None in column.entries for column in far)
 
 
 @settings(max_examples=100, deadline=None)
 @given(st.lists(st.lists(strokes, min_size=1, max_size=5), min_size=2, max_size=2))
 def test_tokens_that_are_unlike_never_share_a_place(pair):
-    for place in laid_side_by_side(pair):
-        for a, b in combinations((stroke.token for stroke in place.strokes if stroke), 2):
+    for column in progressively_aligned(pair):
+        for a, b in combinations((stroke.token for stroke in column.entries if stroke), 2):
             assert token_distance(a, b) < 1.0
 
 
