@@ -16,7 +16,8 @@ from dtaidistance import dtw_cc
 from benchmarks.process import machine
 from smd.recognition.alignment import align, distance, distances
 from smd.recognition.embedding import embed_poses, sample_poses
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 ROUNDS, CALLS = 15, 40

@@ -24,7 +24,8 @@ from smd.recognition.token_spotter import TokenSpotter
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 PATTERNS = {action.name: action.pattern for action in HUMANOID_ACTIONS if action.pattern}

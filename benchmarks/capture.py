@@ -36,7 +36,8 @@ from smd.geometry.resampling import interpolate_linear, interpolate_rotation
 from smd.geometry.rotations import inverse, multiply, rotvec_from_quaternion
 from smd.recognition import Recognizer
 from smd.recognition.streaming import HORIZON_S
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 from tests.standin import runtime
 from tests.standin.runtime import CONTROLLER, HMD, LEFT, RIGHT, TRACKER, TRIGGER, Played, Scene

@@ -1,7 +1,7 @@
 """How simulated people move beside real ones: ``python -m benchmarks.hands``.
 
 Whole hands before a camera (SHREC'17) and VR controllers in free play, beside the two simulated
-populations: `strokes.simulated_person`, from whom Effort is learned, and `hands.hand_person`.
+populations: `person.simulated_person`, from whom Effort is learned, and `hands.hand_person`.
 `hands.MEASURED` was chosen by these figures, of people 1 to 7 and of the sessions `dance` and
 `grabLeft` alone. Sizes are to be compared by their
 spread: a hand before a camera draws 30 cm where a figurine goes 10 cm.
@@ -33,7 +33,7 @@ from smd.geometry.rotations import inverse, multiply, normalized, rotate, rotvec
 from smd.recognition import Recognizer
 from smd.smoothing import smooth
 from smd.synthetic.hands import hand_person
-from smd.synthetic.strokes import Person, simulated_person
+from smd.synthetic.person import Person, simulated_person
 from smd.synthetic.takes import Take
 
 DATA = Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data"))

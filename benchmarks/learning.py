@@ -25,7 +25,8 @@ from smd.recognition.generalization import MANDATORY_SHARE
 from smd.recognition.learning import LearnedPattern, doodle_runs, learn_pattern, without_rest
 from smd.recognition.pattern import Pattern
 from smd.recognition.tokens import Token
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.learning_by_index import learned_by_index
 

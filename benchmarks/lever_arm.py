@@ -34,7 +34,8 @@ from smd.recognition.lever import estimate_lever
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import Token
 from smd.smoothing import smooth
-from smd.synthetic.strokes import simulated_person, tracker_times
+from smd.synthetic.person import simulated_person
+from smd.synthetic.tracker import tracker_times
 
 TRIALS = (1, 2, 3)
 PEOPLE = 100

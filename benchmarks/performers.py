@@ -19,7 +19,8 @@ from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.recognition import Recognizer, learn_action
 from smd.recognition.token_spotter import recognize
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, STEADY, Person, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import STEADY, Person, simulated_person
 from smd.synthetic.takes import Take
 
 PEOPLE, EXAMPLES, SEED = 20, 3, 20260

@@ -28,8 +28,9 @@ from smd.recognition import Recognizer
 from smd.recognition.detection import Detection
 from smd.smoothing import smooth
 from smd.synthetic.efforts import labelled_takes
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.stories import STORIES
-from smd.synthetic.strokes import GESTURES, simulated_person
 from smd.synthetic.takes import Take
 
 DATA = Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data"))

@@ -20,7 +20,8 @@ from smd.recognition.streaming import HORIZON_S, RecognitionStream, Spotter
 from smd.recognition.token_spotter import TokenSpotter
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 PEOPLE, SEED = 20, 2028

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from smd.doodle import Doodle, Recording
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 

@@ -31,7 +31,8 @@ from smd.recognition.token_spotter import recognize
 from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 DATA = Path(os.environ.get("SMD_TEST_DATA", Path(__file__).parents[2] / "shared" / "data"))

@@ -47,7 +47,7 @@ from smd.pipeline import animate, parse
 from smd.score import Part, Score
 from smd.score_file import read_score
 from smd.synthetic.efforts import SHAPING
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 STORIES = Path(__file__).parents[1] / "recordings"

@@ -6,6 +6,8 @@ use.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,6 +67,20 @@ class Softmax:
         score = self.scores(features)
         share = np.exp(score - score.max(axis=-1, keepdims=True))
         return np.asarray(share / share.sum(axis=-1, keepdims=True))
+
+
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """Reckon with one thread of BLAS; afterwards it has as many as before.
+
+    The products of a fit are small: more threads mostly wait for each other, the longer the
+    busier the cores are.
+    """
+    import sklearn.linear_model  # noqa: F401  # only libraries that are loaded can be limited
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(limits=1, user_api="blas"):
+        yield
 
 
 def fit_linear(features: FloatArray, high: NDArray[np.bool_], ridge: float = 1.0) -> Linear:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from laban.committee import COUNT, ENTRY_NAMES, FACTORS, PAIRS, Committee, convened, folds
 from laban.description import DESCRIPTION_NAMES, FAMILIES
 from laban.effort import AXES, POLES, LabanError
-from laban.linear import Linear, Softmax, fit_softmax
+from laban.linear import Linear, Softmax, fit_softmax, one_blas_thread
 from laban.model import STATE_AXES, STATES, EffortModel, Taught
 from laban.motion import FloatArray
 from laban.own import OwnMeasure
@@ -102,7 +102,7 @@ def train(
     trained_on: str,
     seed: int | None = None,
 ) -> Training:
-    """Train every axis that is labelled.
+    """Train every axis that is labelled, with one thread of BLAS.
 
     Parameters
     ----------
@@ -135,9 +135,10 @@ def train(
         for axis, goal in labelled.items()
     }
     state = _states(labelled, whose)
-    (alone, reports), (own, own_reports) = (
-        _trained(descriptions, labelled, state, whose, against) for against in (False, True)
-    )
+    with one_blas_thread():
+        (alone, reports), (own, own_reports) = (
+            _trained(descriptions, labelled, state, whose, against) for against in (False, True)
+        )
     return Training(EffortModel(taught, alone, own, trained_on, seed), reports, own_reports)
 
 

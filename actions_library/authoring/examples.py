@@ -1,7 +1,7 @@
 """Examples of the humanoid's gestures: what verification compares a gesture with.
 
 Simulated people perform each action, some with an Effort, some in a small world and some in a
-large one. They differ in size, speed, aim, grip and unrest, as `smd.synthetic.strokes`, `hands`
+large one. They differ in size, speed, aim, grip and unrest, as `smd.synthetic.person`, `hands`
 and `efforts` say; nobody real is among them. Of each group of performances those few become
 examples that stand for all of it best.
 """
@@ -28,7 +28,7 @@ from smd.recognition.verification import WEIGHTS
 from smd.smoothing import smooth
 from smd.synthetic.efforts import simulated_player, simulated_take
 from smd.synthetic.hands import hand_person
-from smd.synthetic.strokes import Person, simulated_person
+from smd.synthetic.person import Person, simulated_person
 from smd.synthetic.takes import Take
 
 TIDY, OTHERS = (6, 2), (72, 18)

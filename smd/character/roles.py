@@ -234,6 +234,16 @@ class _Tree:
         for j in range(len(self.names) - 1, -1, -1):
             for child in self.children[j]:
                 self.under[j] += self.under[child]
+        self.step_m = [
+            float(np.linalg.norm(self.place[j] - self.place[parent])) if parent >= 0 else 0.0
+            for j, parent in enumerate(self.parents)
+        ]
+        # From the tips up, each joint once: a chain of many joints would else be gone through
+        # anew from every joint on it.
+        self.branches: list[Branch] = [()] * len(self.names)
+        for j in range(len(self.names) - 1, -1, -1):
+            below = (self.branches[child] for child in self.children[j])
+            self.branches[j] = (j, *max(below, key=self.length, default=()))
         self.lowest = float(self.place[:, 1].min())
         self.height = max(float(np.ptp(self.place[:, 1])), 1e-9)
         self.size = max(float(np.ptp(self.place, axis=0).max()), 1e-9)
@@ -247,13 +257,11 @@ class _Tree:
 
     def branch(self, joint: int) -> Branch:
         """Return the longest way from a joint to a tip."""
-        best = max((self.branch(c) for c in self.children[joint]), key=self.length, default=())
-        return (joint, *best)
+        return self.branches[joint]
 
     def length(self, chain: Sequence[int]) -> float:
         """Return how long a chain is, from its first joint's parent on."""
-        steps = [self.place[j] - self.place[self.parents[j]] for j in chain if self.parents[j] >= 0]
-        return float(sum(np.linalg.norm(step) for step in steps))
+        return sum((self.step_m[j] for j in chain), 0.0)
 
     def pairs(self) -> list[Pair]:
         """Return pairs of alike branches that are long enough to be limbs."""

@@ -1,6 +1,6 @@
 """Doodles of simulated people who play with a chosen Effort: what the shipped reader learns from.
 
-A take is one gesture of `smd.synthetic.strokes`, the same that asks for an action, whose strokes
+A take is one gesture of `smd.synthetic.gestures`, the same that asks for an action, whose strokes
 are shaped by Effort as the transfer of Effort to animation shapes clips [1]_ (section 6.4), so
 that what is read from the hand and what is written to the character mean the same:
 
@@ -19,7 +19,7 @@ that what is read from the hand and what is written to the character mean the sa
 At 0 on Time, Weight and Flow, and where no Space is meant, a stroke is the minimum-jerk one that
 the gesture has anyway.
 
-People differ in what `smd.synthetic.strokes.Person` says, and in size of stage, in how far they
+People differ in what `smd.synthetic.person.Person` says, and in size of stage, in how far they
 go in acting out an Effort and in how they lean when they mean nothing. All numbers are in
 `SHAPING` and `SPREAD`, in the open; they are our reading and not measurements of people.
 
@@ -50,7 +50,10 @@ from smd.geometry.rotations import (
 )
 from smd.synthetic import strokes
 from smd.synthetic.curves import RATE_HZ
-from smd.synthetic.strokes import Person, Stroke, gesture, tracker_times
+from smd.synthetic.gestures import gesture
+from smd.synthetic.person import Person, simulated_person
+from smd.synthetic.strokes import Stroke
+from smd.synthetic.tracker import tracker_times
 
 ACTIONS = (
     *("walk", "run", "side_step_left", "side_step_right", "jump", "turn_left", "turn_right"),
@@ -109,7 +112,7 @@ SHAPING = Shaping()
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """How people and takes differ beyond `strokes.Person`: standard deviations and ranges.
+    """How people and takes differ beyond `person.Person`: standard deviations and ranges.
 
     Attributes
     ----------
@@ -175,7 +178,7 @@ class LabelledTake:
 
 def simulated_player(name: str, rng: np.random.Generator, spread: Spread = SPREAD) -> Player:
     """Return a player drawn at random."""
-    habits = strokes.simulated_person(rng)
+    habits = simulated_person(rng)
     return Player(
         name=name,
         habits=replace(habits, size=habits.size * float(np.exp(rng.normal(0.0, spread.stage)))),
@@ -197,7 +200,7 @@ def simulated_take(
     Parameters
     ----------
     action
-        A name in `strokes.GESTURES`.
+        A name in `gestures.GESTURES`.
     effort
         As meant. Time or Weight that is None is played as 0; without Space the strokes are
         straight, and without Flow nothing is held back or let go.
@@ -405,7 +408,7 @@ def _tracked(
 ) -> Doodle:
     """Return what a tracker reports of a movement in the player's hand, somewhere in the room.
 
-    The hand holds the prop askew and beside its centre, and trembles, as in `strokes.Take`.
+    The hand holds the prop askew and beside its centre, and trembles, as in `takes.Take`.
     """
     habits = player.habits
     tremor = float(np.exp(SHAPING.tremor_per_weight * weight))

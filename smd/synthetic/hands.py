@@ -1,6 +1,6 @@
 """Simulated people whose hands differ as much as real ones do.
 
-`strokes.simulated_person` draws people who mean every turn of the prop; Effort is learned from
+`person.simulated_person` draws people who mean every turn of the prop; Effort is learned from
 them. Real hands are less tidy: they hold the prop askew, turn it along as they move, bow out,
 miss where they began. `hand_person` draws people who do so as much as was measured of people 1 to
 7 of a collection of gestures before a camera [1]_ and of two sessions with VR controllers.
@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from smd.synthetic.curves import Vector
-from smd.synthetic.strokes import Person, simulated_person
+from smd.synthetic.person import Person, simulated_person
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ MEASURED = Hands()
 def hand_person(rng: np.random.Generator, hands: Hands = MEASURED) -> Person:
     """Return a person drawn at random, whose hands differ from others' as ``hands`` says.
 
-    What is not said there, as grip and unrest, is drawn as `strokes.simulated_person` does.
+    What is not said there, as grip and unrest, is drawn as `person.simulated_person` does.
     """
     usual = simulated_person(rng)
     swing = hands.swing_rad_per_m + rng.normal(0.0, hands.swing_between, (3, 3))

@@ -19,7 +19,7 @@ from smd.errors import SmdError
 from smd.formats import write_recording
 from smd.score import Part, Score
 from smd.score_file import write_score
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 CENTRE_M = 0.84

@@ -17,7 +17,10 @@ from smd.geometry.rotations import (
 )
 from smd.score import Phrase
 from smd.synthetic.curves import RATE_HZ, Vector, even_times
-from smd.synthetic.strokes import Gesture, Person, gesture, progress, tracker_times
+from smd.synthetic.gestures import Gesture, gesture
+from smd.synthetic.person import Person
+from smd.synthetic.strokes import progress
+from smd.synthetic.tracker import tracker_times
 
 REBOUND_S = 0.3
 """How long a hand takes to spring back after a gesture."""

@@ -21,7 +21,7 @@ from smd.recognition.exemplar import Exemplar, exemplar_of
 from smd.recognition.pattern import Pattern
 from smd.recognition.traits import traits_of
 from smd.smoothing import smooth
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.puppet import puppet, waving_clip
 

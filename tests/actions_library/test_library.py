@@ -81,6 +81,7 @@ def test_writing_twice_gives_the_same_bytes_in_another_process_too(library, tmp_
         [sys.executable, "-c", script, str(tmp_path / "b")],
         check=True,
         cwd=Path(__file__).parents[2],
+        timeout=60,
     )
     made(tmp_path / "a")
     assert bytes_of(tmp_path / "a") == bytes_of(library.folder)
@@ -127,6 +128,7 @@ def test_reading_the_patterns_loads_no_usd():
         capture_output=True,
         text=True,
         cwd=Path(__file__).parents[2],
+        timeout=60,
     )
     assert "LibraryError" in result.stderr
     assert "AssertionError" not in result.stderr

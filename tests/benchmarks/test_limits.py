@@ -11,7 +11,7 @@ from actions_library.folder import load_library
 from benchmarks.limits import LimitRecognizer, limits
 from smd.formats import read_recording
 from smd.score_file import read_score
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 RECORDINGS = Path(__file__).parents[2] / "recordings"

@@ -3,7 +3,8 @@
 import pytest
 
 from benchmarks.performers import eased, performer
-from smd.synthetic.strokes import STEADY, gesture
+from smd.synthetic.gestures import gesture
+from smd.synthetic.person import STEADY
 
 
 @pytest.mark.parametrize("difficulty", [0.0, 0.25, 1.0])

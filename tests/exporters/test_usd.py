@@ -78,7 +78,7 @@ def test_the_same_input_gives_the_same_bytes_in_another_process_too(written, tmp
     )
     again = tmp_path / f"other{written.suffix}"
     root = Path(__file__).parents[2]
-    subprocess.run([sys.executable, "-c", script, str(again)], check=True, cwd=root)
+    subprocess.run([sys.executable, "-c", script, str(again)], check=True, cwd=root, timeout=60)
     assert again.read_bytes() == written.read_bytes()
 
 

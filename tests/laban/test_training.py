@@ -1,7 +1,11 @@
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pytest
+from sklearn.linear_model import LogisticRegression
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from laban import LabanError
 from laban.description import DESCRIPTION_NAMES, FAMILIES
@@ -16,6 +20,14 @@ SPEED = DESCRIPTION_NAMES.index("log_rms_speed")
 ROUND = DESCRIPTION_NAMES.index("log_roundness")
 
 
+@functools.cache
+def speedy():
+    """Takes whose poles are told by speed, and what is learned from them."""
+    described, meant, performers = crowd()
+    described[:, SPEED] += 4.0 * meant
+    return described, meant, train(described, {"time": meant}, performers, trained_on="test")
+
+
 def crowd(seed=0, *, people=6, takes=6):
     """Noise for descriptions, and poles in turn."""
     rng = np.random.default_rng(seed)
@@ -25,9 +37,7 @@ def crowd(seed=0, *, people=6, takes=6):
 
 
 def test_what_tells_the_poles_apart_is_found():
-    described, meant, performers = crowd()
-    described[:, SPEED] += 4.0 * meant
-    training = train(described, {"time": meant}, performers, trained_on="test")
+    described, meant, training = speedy()
     assert training.alone["time"].accuracy > 0.95
     assert sum(training.model.alone.axes["time"].members.values()) == pytest.approx(1, abs=0.01)
     for description, pole in zip(described, meant, strict=True):
@@ -65,7 +75,7 @@ def test_people_whose_middles_differ_are_told_against_their_own_takes():
 
 
 def test_only_labelled_axes_are_trained_and_each_on_its_own_takes():
-    described, meant, performers = crowd()
+    described, meant, performers = crowd(people=5)
     described[:, SPEED] += 5.0 * meant
     half = np.arange(len(meant)) < 24
     labels = {
@@ -113,8 +123,32 @@ def test_joint_states_are_trained_where_both_axes_have_poles():
     assert chances.argmax() == 3  # sudden and strong
 
 
+def blas_threads() -> set[int]:
+    libraries = [each for each in threadpool_info() if each["user_api"] == "blas"]
+    if not libraries:
+        pytest.skip("no BLAS whose threads can be counted, as Apple's")
+    return {each["num_threads"] for each in libraries}
+
+
+def test_training_reckons_with_one_thread_and_leaves_threads_as_they_were(monkeypatch):
+    described, meant, performers = crowd(people=3)
+    during, fit = set(), LogisticRegression.fit
+
+    def watched(self, *arguments, **options):
+        during.update(blas_threads())
+        return fit(self, *arguments, **options)
+
+    monkeypatch.setattr(LogisticRegression, "fit", watched)
+    with threadpool_limits(limits=2, user_api="blas"):
+        before = blas_threads()
+        train(described, {"time": meant}, performers, trained_on="test")
+        after = blas_threads()
+    assert before == after == {2}
+    assert during == {1}
+
+
 def test_training_twice_gives_the_same_model():
-    described, meant, performers = crowd()
+    described, meant, performers = crowd(people=4)
     models = [
         train(described, {"flow": meant}, performers, trained_on="test").model for _ in range(2)
     ]
@@ -122,7 +156,7 @@ def test_training_twice_gives_the_same_model():
 
 
 def test_the_unit_of_an_entry_that_has_no_size_does_not_matter():
-    described, meant, performers = crowd()
+    described, meant, performers = crowd(people=4)
     named = ("log_roundness", "log_flatness", "slow_share", "spectral_arc_length", "time_to_peak")
     columns = [DESCRIPTION_NAMES.index(name) for name in named]
     described[:, ROUND] += 2.0 * meant
@@ -151,9 +185,8 @@ def test_own_takes_are_read_against_themselves_and_a_little_of_a_typical_person(
 
 
 def test_what_is_unlike_all_that_was_learned_from_is_muted_and_keeps_its_sign():
-    described, meant, performers = crowd()
-    described[:, SPEED] += 4.0 * meant
-    model = train(described, {"time": meant}, performers, trained_on="test").model
+    described, _, training = speedy()
+    model = training.model
     assert model.alone.known(model.alone.entries.values(described[0])) > 0.5
     odd = 3.0 * np.random.default_rng(1).normal(size=D)
     readings = []

@@ -7,7 +7,7 @@ from smd.doodle import Doodle
 from smd.errors import DoodleError
 from smd.smoothing import smooth
 from smd.smoothing_stream import SmoothingStream, arrays_of
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 

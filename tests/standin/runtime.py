@@ -84,7 +84,7 @@ def build(folder: Path) -> Path:
     library.parent.mkdir(parents=True)
     source = Path(__file__).with_name("vrclient.cpp")
     command = [compiler(), "-O1", "-std=c++17", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"]
-    subprocess.run([*command, "-o", library, source], check=True)
+    subprocess.run([*command, "-o", library, source], check=True, timeout=300)
     registry = folder / "config" / "openvr" / "openvrpaths.vrpath"
     registry.parent.mkdir(parents=True)
     paths = {"runtime": [str(folder / "runtime")], "version": 1}

@@ -291,7 +291,10 @@ def test_a_usd_does_not_lead_out_of_its_asset(tmp_path, kind, manner):
     inside = tmp_path / "asset" / "clips"
     inside.mkdir(parents=True)
     (inside / "link.usda").symlink_to(tmp_path / "secret.usda")
-    os.mkfifo(inside / "pipe.usda")
+    if kind == "pipe":
+        if not hasattr(os, "mkfifo"):
+            pytest.skip("no named pipes on this system")
+        os.mkfifo(inside / "pipe.usda")
     name = {
         "above": "../../secret.usda",
         "absolute": str(tmp_path / "secret.usda"),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from smd.cli.app import main
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 from tests.standin import runtime
 from tests.standin.runtime import Played, Scene

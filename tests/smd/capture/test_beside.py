@@ -124,7 +124,7 @@ def parent(tmp_path):
     assert process.stdout.readline() == "given\n"
     yield process, tmp_path / "notes.txt"
     process.kill()
-    process.communicate()
+    process.communicate(timeout=20)
 
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of a terminal's process group")
@@ -145,11 +145,13 @@ def test_ctrl_c_ends_this_process_and_the_other_does_what_it_was_given(parent):
 @posix
 def test_a_parent_that_is_killed_leaves_no_orphan(parent):
     process, notes = parent
+    deadline = time.monotonic() + 20.0
     while len(lines(notes)) < 3:
+        assert time.monotonic() < deadline
         time.sleep(0.01)
     (child,) = (int(line) for line in lines(notes) if line.isdigit())
     process.kill()
-    process.wait()
+    process.wait(timeout=20)
     deadline = time.monotonic() + 20.0
     while _is_running(child):
         assert time.monotonic() < deadline

@@ -12,7 +12,7 @@ import pytest
 
 from smd.doodle import Doodle, Recording
 from smd.formats import write_recording
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 

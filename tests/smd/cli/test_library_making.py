@@ -138,7 +138,7 @@ def test_the_knight_acts_out_a_doodle(run_smd, shared_data, tmp_path):
     from smd.doodle import Recording
     from smd.formats import write_recording
     from smd.score_file import read_score
-    from smd.synthetic.strokes import simulated_person
+    from smd.synthetic.person import simulated_person
     from smd.synthetic.takes import Take
 
     files_of, folder = shared_data / "clips" / "gltf", tmp_path / "knight"

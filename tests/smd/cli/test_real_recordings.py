@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -31,21 +32,19 @@ def test_two_controllers_become_two_performers_on_a_valid_stage(
             codes = attribute.GetTimeSamples()
             assert len(codes) > 300
             for code in codes:
-                values = attribute.Get(code)
-                parts = (
-                    [[q.GetReal(), *q.GetImaginary()] for q in values]
-                    if hasattr(values[0], "GetReal")
-                    else values
-                )
-                assert np.isfinite(np.array(parts)).all()
+                assert np.isfinite(np.array(attribute.Get(code))).all()
 
 
 @pytest.mark.parametrize(
     ("folder", "options", "files"),
-    [("controllers/kettle", ["--quaternion", "xyzw"], 7), ("idle", ["--handedness", "left"], 18)],
+    [("controllers/kettle", ["--quaternion", "xyzw"], 7), ("idle", ["--handedness", "left"], 6)],
 )
-def test_folders_of_other_trackers_are_read(run_smd, shared_data, folder, options, files):
-    code, out, err = run_smd("parse", shared_data / folder, *options, "--json")
+def test_folders_of_other_trackers_are_read(run_smd, shared_data, tmp_path, folder, options, files):
+    """Of the idle hands every third: tests of formats read all of them."""
+    there = sorted((shared_data / folder).glob("*.csv"))
+    for path in there[:: len(there) // files]:
+        shutil.copy(path, tmp_path)
+    code, out, err = run_smd("parse", tmp_path, *options, "--json")
     assert (code, err) == (0, "")
     scores = json.loads(out)
     assert len(scores) == files

@@ -16,7 +16,7 @@ from actions_library.folder import load_library, write_library
 from smd.cli.app import main
 from smd.doodle import Doodle, Recording
 from smd.formats import read_recording, write_recording
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.puppet import puppet, waving_clip
 

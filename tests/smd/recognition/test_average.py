@@ -19,7 +19,7 @@ from smd.recognition.embedding import extent_m, heading_frame, sample_poses, see
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 from smd.synthetic.efforts import ACTIONS
-from smd.synthetic.strokes import STEADY, simulated_person
+from smd.synthetic.person import STEADY, simulated_person
 from smd.synthetic.takes import Take
 
 UP = [0.0, 1.0, 0.0]

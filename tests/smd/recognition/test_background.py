@@ -16,7 +16,7 @@ from smd.recognition.exemplar import Exemplar, exemplar_of
 from smd.recognition.traits import traits_of
 from smd.recognition.verification import GLANCE, Verification
 from smd.smoothing import smooth
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 

@@ -55,9 +55,10 @@ def assert_nearest_and_shortest(bank, library, word):
     found = occurrences(bank, word)
     for i, pattern in enumerate(library.values()):
         automaton = compile_automaton(pattern)
+        read = reading(automaton, word, bank.token_costs)  # of each token, whatever part it is of
         for end in range(len(word) + 1):
             ways = [
-                edit_distance(automaton, word[start:end], bank.token_costs)
+                least_cost(automaton, read=read[start:end], skip=np.ones(end - start))
                 for start in range(end + 1)
             ]
             assert found.distance[end, i] == min(ways)

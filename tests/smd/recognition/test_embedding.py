@@ -21,7 +21,7 @@ from smd.recognition.embedding import (
     scaled,
     seen_from,
 )
-from smd.synthetic.strokes import STEADY
+from smd.synthetic.person import STEADY
 from smd.synthetic.takes import Take
 
 UP = [0.0, 1.0, 0.0]

@@ -17,7 +17,8 @@ from smd.recognition.pattern import Pattern
 from smd.recognition.progressive_alignment import WeightedToken
 from smd.recognition.tokens import STILL, Token
 from smd.synthetic.efforts import ACTIONS
-from smd.synthetic.strokes import STEADY, progress, simulated_person
+from smd.synthetic.person import STEADY, simulated_person
+from smd.synthetic.strokes import progress
 from smd.synthetic.takes import Take
 from tests.naive.learning_by_index import learned_by_index
 

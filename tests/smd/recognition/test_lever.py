@@ -10,7 +10,8 @@ from smd.errors import DoodleError
 from smd.geometry.rotations import multiply, quaternion_from_rotvec, rotate
 from smd.recognition.lever import estimate_lever
 from smd.smoothing import smooth
-from smd.synthetic.strokes import simulated_person, tracker_times
+from smd.synthetic.person import simulated_person
+from smd.synthetic.tracker import tracker_times
 
 AXES = np.eye(3)
 

@@ -16,7 +16,7 @@ from smd.recognition.pattern import Pattern
 from smd.recognition.verification import TERMS
 from smd.smoothing import smooth
 from smd.synthetic.curves import straight_line
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.streaming import spans_as_they_become_final
 

@@ -13,7 +13,7 @@ from smd.recognition.action import Action
 from smd.recognition.matching import Match
 from smd.recognition.pattern import Pattern
 from smd.recognition.rehearsal import Likeness, add_examples, gains, likeness
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 ACTIONS = ("punch", "bow", "wave", "jump")

@@ -8,7 +8,8 @@ import pytest
 from actions_library.folder import load_library
 from smd.doodle import Doodle
 from smd.recognition import Recognizer
-from smd.synthetic.strokes import GESTURES, STEADY, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import STEADY, simulated_person
 from smd.synthetic.takes import Take
 
 

@@ -15,7 +15,7 @@ from smd.recognition.token_spotter import TokenSpotter, recognize
 from smd.recognition.tokenizer import tokenize
 from smd.smoothing import smooth
 from smd.synthetic.efforts import ACTIONS
-from smd.synthetic.strokes import STEADY, simulated_person
+from smd.synthetic.person import STEADY, simulated_person
 from smd.synthetic.takes import Take
 from tests.naive.streaming import spans_as_they_become_final
 

@@ -23,7 +23,7 @@ from smd.recognition.suggestions import (
 from smd.recognition.tokens import STILL
 from smd.recognition.traits import traits_of_parts
 from smd.smoothing import smooth
-from smd.synthetic.strokes import simulated_person
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 NAMES = ("walk", "punch", "bow", "turn_left")

@@ -16,7 +16,7 @@ from smd.recognition.tokenizer import tokenize
 from smd.recognition.tokens import STILL, Token, TokenRun
 from smd.smoothing import smooth
 from smd.synthetic.efforts import ACTIONS
-from smd.synthetic.strokes import STEADY, simulated_person
+from smd.synthetic.person import STEADY, simulated_person
 from smd.synthetic.takes import Take
 
 # Those that tokens alone tell apart; tests of the whole library verify.

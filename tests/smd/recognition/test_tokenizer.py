@@ -13,7 +13,8 @@ from smd.recognition.tokenizer import DEFAULT_THRESHOLDS, tokenize
 from smd.recognition.tokens import STILL, Token
 from smd.smoothing import smooth
 from smd.synthetic.curves import circle, helix, spin, straight_line
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 DIRECTIONS = [d for d in product((-1, 0, 1), repeat=3) if any(d)]

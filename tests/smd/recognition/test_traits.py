@@ -9,7 +9,8 @@ from smd.geometry.rotations import multiply, quaternion_about, quaternion_from_r
 from smd.recognition.traits import COURSES, MEASURES, SAMPLES, fitted, traits_of
 from smd.smoothing import smooth
 from smd.synthetic.curves import helix, straight_line
-from smd.synthetic.strokes import GESTURES, simulated_person
+from smd.synthetic.gestures import GESTURES
+from smd.synthetic.person import simulated_person
 from smd.synthetic.takes import Take
 
 

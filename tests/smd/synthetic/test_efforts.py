@@ -10,7 +10,8 @@ from smd.errors import DoodleError
 from smd.smoothing import smooth
 from smd.synthetic import efforts
 from smd.synthetic.efforts import ACTIONS, labelled_takes, simulated_player, simulated_take
-from smd.synthetic.strokes import STEADY, gesture
+from smd.synthetic.gestures import gesture
+from smd.synthetic.person import STEADY
 
 
 @pytest.fixture

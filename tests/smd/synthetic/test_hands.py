@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from smd.geometry.rotations import heading_rad, inverse, multiply, rotate, rotvec_from_quaternion
+from smd.synthetic.gestures import gesture
 from smd.synthetic.hands import MEASURED, Hands, hand_person
-from smd.synthetic.strokes import STEADY, Person, gesture, simulated_person
+from smd.synthetic.person import STEADY, Person, simulated_person
 from smd.synthetic.takes import Take
 
 NOTHING = Hands(
