@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import reading, writing
+from smd.cli import acting, libraries, reading, score_lines, writing
 
 if TYPE_CHECKING:
     from smd.transfer.performance import Performance
@@ -20,11 +20,11 @@ def animate(
         Path | None,
         typer.Option(help="The recording. Default: the one the Score names, beside the Score."),
     ] = None,
-    library: reading.Libraries = None,
-    fps: reading.FramesPerSecond = 24.0,
-    expressiveness: reading.Expressiveness = 1.0,
-    heading: reading.Heading = reading.HeadingName.PROP,
-    ground: reading.Ground = None,
+    library: libraries.Libraries = None,
+    fps: acting.FramesPerSecond = 24.0,
+    expressiveness: acting.Expressiveness = 1.0,
+    heading: acting.Heading = acting.HeadingName.PROP,
+    ground: acting.Ground = None,
     variants: writing.Variants = False,
     layers: writing.Layers = False,
     phrases: writing.Phrases = False,
@@ -49,7 +49,7 @@ def animate(
         recording = score_file.parent / score.recording
     options = reading.ReadingOptions.from_pairs(score.reading)
     take = options.read(recording)
-    cast = reading.LibraryFolders.from_options(library).over(score, score_file).load()
+    cast = libraries.LibraryFolders.from_options(library).over(score, score_file).load()
     terrain = None if ground is None else read_terrain(ground)
 
     def act(how_much: float) -> Performance:
@@ -64,5 +64,5 @@ def animate(
         )
 
     performance = written.write(score, act, expressiveness, output)
-    said = f"{output}: {reading.summary(take, score)}"
+    said = f"{output}: {score_lines.summary(take, score)}"
     typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))

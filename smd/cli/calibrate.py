@@ -6,12 +6,12 @@ import math
 
 import typer
 
-from smd.cli import reading
+from smd.cli import one_doodle, places, reading
 
 
 def calibrate(
-    recordings: reading.Recordings,
-    device: reading.OneDevice = None,
+    recordings: places.Recordings,
+    device: one_doodle.OneDevice = None,
     up: reading.Up = None,
     front: reading.Front = None,
     handedness: reading.Handedness = None,
@@ -30,11 +30,11 @@ def calibrate(
     from smd.smoothing import smooth
 
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    files = list(reading.recording_files(recordings))
+    files = list(places.recording_files(recordings))
     motions = []
     for file in files:
         try:
-            motions += [smooth(d) for d in reading.doodles_of_one(options.read(file), device)]
+            motions += [smooth(d) for d in one_doodle.doodles_of_one(options.read(file), device)]
         except DoodleError as error:
             raise RecordingError(f"{file}: {error}") from error
     try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import reading, writing
+from smd.cli import acting, libraries, parsing, places, reading, score_lines, writing
 from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def convert(
-    recordings: reading.Recordings,
+    recordings: places.Recordings,
     output: Annotated[
         Path,
         typer.Option("-o", "--output", help="OUT.usda, .usdc or .usdz; or a folder for several."),
@@ -24,21 +24,21 @@ def convert(
     suffix: Annotated[
         str, typer.Option("--as", help="Format of the files written into a folder.")
     ] = ".usdc",
-    library: reading.Libraries = None,
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    tolerance: reading.Tolerance = 1.0,
-    intent: reading.Intent = None,
-    unexplained: reading.Unexplained = reading.UnexplainedName.LEAVE,
-    fps: reading.FramesPerSecond = 24.0,
-    expressiveness: reading.Expressiveness = 1.0,
-    heading: reading.Heading = reading.HeadingName.PROP,
-    ground: reading.Ground = None,
+    library: libraries.Libraries = None,
+    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    tolerance: parsing.Tolerance = 1.0,
+    intent: parsing.Intent = None,
+    unexplained: parsing.Unexplained = parsing.UnexplainedName.LEAVE,
+    fps: acting.FramesPerSecond = 24.0,
+    expressiveness: acting.Expressiveness = 1.0,
+    heading: acting.Heading = acting.HeadingName.PROP,
+    ground: acting.Ground = None,
     variants: writing.Variants = False,
     layers: writing.Layers = False,
     phrases: writing.Phrases = False,
     stage_up: writing.Up = writing.StageUp.Y,
     stage_unit: writing.Unit = writing.StageUnit.M,
-    device: reading.Device = None,
+    device: parsing.Device = None,
     up: reading.Up = None,
     front: reading.Front = None,
     handedness: reading.Handedness = None,
@@ -53,16 +53,16 @@ def convert(
     import smd
     from smd.transfer.terrain import read_terrain
 
-    files = list(reading.recording_files(recordings))
+    files = list(places.recording_files(recordings))
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
     outputs = targets(recordings, files, output, suffix)
     written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
     for path in outputs:
         written.check(path)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    folders = reading.LibraryFolders.from_options(library)
+    folders = libraries.LibraryFolders.from_options(library)
     cast = folders.load()
-    understood = reading.understanding(
+    understood = parsing.understanding(
         options,
         cast,
         folders,
@@ -89,7 +89,7 @@ def convert(
             )
 
         performance = written.write(score, act, expressiveness, outputs[index])
-        said = f"{outputs[index]}: {reading.summary(recording, score)}"
+        said = f"{outputs[index]}: {score_lines.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
         for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
             typer.echo(f"  {line}")

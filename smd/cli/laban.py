@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from smd.cli import reading
+from smd.cli import places, reading
 from smd.cli.batch import for_each
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def _laban() -> None:
 
 @app.command()
 def classify(
-    recordings: reading.Recordings,
+    recordings: places.Recordings,
     model: Model = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print a JSON list and nothing else.")
@@ -56,11 +56,11 @@ def classify(
 
     reader = load_effort_model(model)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    files = list(reading.recording_files(recordings))
+    files = list(places.recording_files(recordings))
     rows: list[dict[str, Any]] = []
     own = None
     if performer:
-        takes = reading.recording_files(performer)
+        takes = places.recording_files(performer)
         own = performers_measure(options.read(take) for take in takes)
 
     def one(_: int, file: Path) -> None:

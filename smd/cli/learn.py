@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import reading
+from smd.cli import one_doodle, parsing, places, reading, wording
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -32,7 +32,7 @@ SHOWN_TOKENS = 8
 
 def learn(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
-    recordings: reading.Recordings,
+    recordings: places.Recordings,
     library: Annotated[
         Path, typer.Option("--library", help="The library to extend; made where there is none.")
     ],
@@ -58,8 +58,8 @@ def learn(
     description: Annotated[
         str, typer.Option(help="What the gesture looks like, in one sentence.")
     ] = "",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    device: reading.OneDevice = None,
+    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    device: one_doodle.OneDevice = None,
     up: reading.Up = None,
     front: reading.Front = None,
     handedness: reading.Handedness = None,
@@ -74,8 +74,8 @@ def learn(
     """
     lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
     options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    files = list(reading.recording_files(recordings))
-    doodles = [one_example(file, options, device) for file in files]
+    files = list(places.recording_files(recordings))
+    doodles = [one_doodle.one_example(file, options, device) for file in files]
     typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height)))
 
 
@@ -174,19 +174,6 @@ class Lesson:
         yield f"{verb}: {self.folder}: {names}"
 
 
-def one_example(file: Path, options: reading.ReadingOptions, device: str | None) -> Doodle:
-    """Return the one doodle of a recording; an example holds the gesture once."""
-    from smd.errors import RecordingError
-
-    doodles = reading.doodles_of_one(options.read(file), device)
-    if len(doodles) > 1:
-        raise RecordingError(
-            f"{file}: expected one performance of the gesture, found {len(doodles)} doodles: "
-            f"tracking was lost from {doodles[0].time_s[-1]:.2f} to {doodles[1].time_s[0]:.2f} s"
-        )
-    return doodles[0]
-
-
 def _learned(
     name: str, files: list[Path], doodles: list[Doodle], figure_height_m: float
 ) -> tuple[Action, LearnedPattern]:
@@ -205,18 +192,18 @@ def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
     """Yield lines on what was learned."""
     count = len(learned.names)
     average = " and their average" if learned.average_sequence else ""
-    yield f"{action.name}: learned from {reading.count(count, 'example')}{average}"
+    yield f"{action.name}: learned from {wording.count(count, 'example')}{average}"
     for name, sequence, (start_s, end_s) in zip(
         learned.names, learned.sequences, learned.spans_s, strict=True
     ):
         if count <= SHOWN_EXAMPLES:
-            tokens = reading.count(len(sequence), "token")
+            tokens = wording.count(len(sequence), "token")
             yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
     if learned.mandatory:
         lengths = sorted(len(sequence) for sequence in learned.sequences)
         if count > 1:
             of = f"{lengths[0]} to {lengths[-1]}"
-            yield f"  agree in {reading.count(len(learned.mandatory), 'token')} of {of}"
+            yield f"  agree in {wording.count(len(learned.mandatory), 'token')} of {of}"
         yield from _tokens(learned)
     else:
         yield "  warning: no movement is in all examples; they show several ways to draw it"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, reading
+from smd.cli import acting, capturing, libraries, parsing, reading
 
 if TYPE_CHECKING:
     from smd.capture.beside import Beside
@@ -26,13 +26,13 @@ def play(
     picture: Annotated[
         bool, typer.Option("--picture", help="Draw a timeline of each story as well.")
     ] = False,
-    library: reading.LibraryFolder = None,
+    library: libraries.LibraryFolder = None,
     device: capturing.Devices = None,
     rate: capturing.Rate = 90.0,
     source: capturing.Source = "openvr",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    tolerance: reading.Tolerance = 1.0,
-    fps: reading.FramesPerSecond = 24.0,
+    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    tolerance: parsing.Tolerance = 1.0,
+    fps: acting.FramesPerSecond = 24.0,
     mount: reading.Mount = None,
 ) -> None:
     """Play stories: hold the trigger and draw.

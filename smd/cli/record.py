@@ -68,7 +68,7 @@ def record(
 
 def _summary(output: Path, names: Iterable[str], progress: Progress) -> str:
     """Return in one line what is in the file now."""
-    from smd.cli.reading import count
+    from smd.cli.wording import count
 
     return (
         f"{output}: {progress.time_s:.1f} s of {', '.join(names)}, "

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, reading
+from smd.cli import capturing, parsing, places, reading, wording
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -56,7 +56,7 @@ def rehearse(
     device: capturing.Devices = None,
     rate: capturing.Rate = 90.0,
     source: capturing.Source = "openvr",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
+    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     up: reading.Up = None,
     front: reading.Front = None,
     handedness: reading.Handedness = None,
@@ -125,7 +125,7 @@ class Rehearsal:
         *,
         base: str | None = None,
         keep: bool = False,
-        figure_height_m: float = reading.FIGURE_HEIGHT_M,
+        figure_height_m: float = parsing.FIGURE_HEIGHT_M,
     ) -> Rehearsal:
         """Return the rehearsal that a user asks for; the options are those of the command.
 
@@ -237,7 +237,7 @@ class Rehearsal:
                 "more to see"
             )
         verb = "extended" if self.there else "made"
-        count = reading.count(len(self.takes), "own example")
+        count = wording.count(len(self.takes), "own example")
         yield f"{verb}: {self.folder}: {count} of {', '.join(self.names)}"
 
     def _taken(self, action: str) -> list[tuple[str, Doodle]]:
@@ -282,7 +282,7 @@ def _from_files(
     devices: Sequence[str],
 ) -> None:
     """Look at recordings; all of them are added, or none."""
-    from smd.cli.learn import one_example
+    from smd.cli.one_doodle import one_example
     from smd.errors import LearningError
 
     if len(devices) > 1:
@@ -290,7 +290,7 @@ def _from_files(
     device = devices[0] if devices else None
     refused = []
     for action, place in given:
-        for file in reading.recording_files([place]):
+        for file in places.recording_files([place]):
             doodle = one_example(file, options, device)
             try:
                 typer.echo(rehearsal.offer(action, file, doodle))
@@ -315,7 +315,7 @@ def _from_source(
     from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
     from smd.capture.take import require_rate
-    from smd.cli.teach import drawn_doodle
+    from smd.cli.one_doodle import drawn_doodle
     from smd.errors import CaptureError, SmdError
 
     require_rate(rate_hz)

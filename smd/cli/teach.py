@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, reading
+from smd.cli import capturing, one_doodle, parsing, reading
 
 if TYPE_CHECKING:
     from smd.doodle import Doodle
@@ -37,7 +37,7 @@ def teach(
     device: capturing.Devices = None,
     rate: capturing.Rate = 90.0,
     source: capturing.Source = "openvr",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
+    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     mount: reading.Mount = None,
 ) -> None:
     """Teach an action by three performances.
@@ -70,7 +70,7 @@ def teach(
                     typer.echo(f"  {last.name}: discarded")
                 continue
             try:
-                doodle = drawn_doodle(path, options)
+                doodle = one_doodle.drawn_doodle(path, options)
                 typer.echo(_told(path, doodle, figure_height))
                 taken.append((path, doodle))
             except SmdError as error:
@@ -90,21 +90,6 @@ def teach(
 def _asked(action: str, number: int, of: int) -> str:
     """Return what the user is asked for."""
     return f"{number} of {of}: hold the trigger, draw {action}, let go"
-
-
-def drawn_doodle(path: Path, options: reading.ReadingOptions) -> Doodle:
-    """Return the one doodle of a performance: that of the device whose trigger was held."""
-    from smd.errors import RecordingError
-
-    doodles = options.read(path).doodles
-    drawn = [one for one in doodles if one.drawing is not None and one.drawing.any()]
-    if len(drawn) != 1:
-        devices = ", ".join(dict.fromkeys(doodle.device for doodle in drawn)) or "none"
-        raise RecordingError(
-            f"{path}: expected one doodle of one device, found {len(drawn)} of {devices}: "
-            "name one with --device, and keep it in sight"
-        )
-    return drawn[0]
 
 
 def _told(path: Path, doodle: Doodle, figure_height_m: float) -> str:

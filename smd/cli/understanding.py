@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.cli import reading
+from smd.cli import libraries, parsing, places, reading, score_lines
 from smd.cli.next_steps import LIVE, next_steps
 
 if TYPE_CHECKING:
@@ -112,23 +112,23 @@ class Understander:
 
     def _act_out(self, take: Path, devices: list[str]) -> None:
         import smd
-        from smd.cli.parse import table
+        from smd.cli.score_lines import table
         from smd.score_file import write_score
 
         how = self._how
         options = reading.ReadingOptions(mount=None if how.mount is None else str(how.mount))
-        understood = reading.understanding(
+        understood = parsing.understanding(
             options,
             self._library,
-            reading.LibraryFolders(how.folder),
+            libraries.LibraryFolders(how.folder),
             figure_height_m=how.figure_height_m,
             devices=devices,
             tolerance=how.tolerance,
         )
         recording, score = understood(take.with_suffix(".csv"))
-        score_file = take.with_suffix(reading.SCORE_SUFFIX)
-        write_score(reading.beside(score, score_file), score_file)
-        _say(f"{take.with_suffix(how.suffix)}: {reading.summary(recording, score)}")
+        score_file = take.with_suffix(places.SCORE_SUFFIX)
+        write_score(places.beside(score, score_file), score_file)
+        _say(f"{take.with_suffix(how.suffix)}: {score_lines.summary(recording, score)}")
         for line in table(score, others=SHOWN_OTHERS):
             _say(line)
         for line in next_steps(
@@ -151,7 +151,7 @@ class Understander:
 
 def _print(decided: list[Decided]) -> None:
     """Print phrases as they are decided."""
-    from smd.cli.parse import row
+    from smd.cli.score_lines import row
 
     for device, span, effort in decided:
         line = row(span.start_s, span.end_s, span.action, span.confidence, effort)

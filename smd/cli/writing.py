@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli.reading import PHRASES_SUFFIX
+from smd.cli.places import PHRASES_SUFFIX
 
 if TYPE_CHECKING:
     from smd.score import Score
