@@ -48,7 +48,7 @@ def teach(
     from smd.capture.selection import chosen_devices, require_trigger
     from smd.capture.shelf import Shelf
     from smd.capture.take import require_rate
-    from smd.cli.learn import Lesson
+    from smd.cli.lesson import Lesson
     from smd.errors import CaptureError, SmdError
     from smd.formats import Mount
 
