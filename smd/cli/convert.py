@@ -7,16 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import acting, libraries, parsing, places, reading, score_lines, writing
+from smd.cli import acting, libraries, parsing, places, score_lines, writing
 from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
     from smd.transfer.performance import Performance
 
 
+@unfolded
 def convert(
     recordings: places.Recordings,
+    *,
     output: Annotated[
         Path,
         typer.Option("-o", "--output", help="OUT.usda, .usdc or .usdz; or a folder for several."),
@@ -39,12 +43,7 @@ def convert(
     stage_up: writing.Up = writing.StageUp.Y,
     stage_unit: writing.Unit = writing.StageUnit.M,
     device: parsing.Device = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    reading: ReadingOptions,
 ) -> None:
     """Convert recordings to animations.
 
@@ -59,11 +58,10 @@ def convert(
     written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
     for path in outputs:
         written.check(path)
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     folders = libraries.LibraryFolders.from_options(library)
     cast = folders.load()
     understood = parsing.understanding(
-        options,
+        reading,
         cast,
         folders,
         figure_height_m=figure_height,
@@ -91,7 +89,7 @@ def convert(
         performance = written.write(score, act, expressiveness, outputs[index])
         said = f"{outputs[index]}: {score_lines.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in performance.score.warnings)]))
-        for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
+        for line in next_steps(file, recording, score, cast, options=reading, tolerance=tolerance):
             typer.echo(f"  {line}")
 
     for_each(files, one)

@@ -7,13 +7,17 @@ from typing import Annotated
 
 import typer
 
-from smd.cli import one_doodle, parsing, places, reading
+from smd.cli import one_doodle, parsing, places
 from smd.cli.lesson import Lesson
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 
 
+@unfolded
 def learn(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
     recordings: places.Recordings,
+    *,
     library: Annotated[
         Path, typer.Option("--library", help="The library to extend; made where there is none.")
     ],
@@ -41,12 +45,7 @@ def learn(
     ] = "",
     figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     device: one_doodle.OneDevice = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    reading: ReadingOptions,
 ) -> None:
     """Learn an action's gesture from examples.
 
@@ -54,7 +53,6 @@ def learn(
     or makes one.
     """
     lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     files = list(places.recording_files(recordings))
-    doodles = [one_doodle.one_example(file, options, device) for file in files]
+    doodles = [one_doodle.one_example(file, reading, device) for file in files]
     typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height)))

@@ -8,16 +8,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import libraries, parsing, places, reading, score_lines
+from smd.cli import libraries, parsing, places, score_lines
 from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
     from smd.score import Score
 
 
+@unfolded
 def parse(
     recordings: places.Recordings,
+    *,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", help="Write the Score here; a folder for several."),
@@ -34,12 +38,7 @@ def parse(
     intent: parsing.Intent = None,
     unexplained: parsing.Unexplained = parsing.UnexplainedName.LEAVE,
     device: parsing.Device = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    reading: ReadingOptions,
 ) -> None:
     """Recognise actions and their Effort.
 
@@ -49,11 +48,10 @@ def parse(
 
     files = list(places.recording_files(recordings))
     outputs = targets(recordings, files, output, places.SCORE_SUFFIX) if output else []
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     folders = libraries.LibraryFolders.from_options(library)
     cast = folders.load()
     understood = parsing.understanding(
-        options,
+        reading,
         cast,
         folders,
         figure_height_m=figure_height,
@@ -77,7 +75,7 @@ def parse(
 
                 typer.echo("\n".join(explanation(score, recording, cast)))
             for line in next_steps(
-                file, recording, score, cast, options=options, tolerance=tolerance
+                file, recording, score, cast, options=reading, tolerance=tolerance
             ):
                 typer.echo(f"  {line}")
             if outputs:

@@ -12,17 +12,6 @@ import typer
 if TYPE_CHECKING:
     from smd.doodle import Recording
 
-Up = Annotated[
-    str | None, typer.Option(help="The world's up axis in the file: x, y, z, -x, -y or -z.")
-]
-Front = Annotated[
-    str | None, typer.Option(help="The prop's front axis in the file: x, y, z, -x, -y or -z.")
-]
-Handedness = Annotated[
-    str | None, typer.Option(help="right or left; Unity and Unreal write left-handed files.")
-]
-Unit = Annotated[str | None, typer.Option(help="Unit of length in the file: m, cm, mm, in or ft.")]
-Quaternion = Annotated[str | None, typer.Option(help="Order of quaternions: xyzw or wxyz.")]
 Mount = Annotated[
     str | None,
     typer.Option(
@@ -35,12 +24,22 @@ Mount = Annotated[
 class ReadingOptions:
     """How the user said that recordings are to be read; None: as the format says."""
 
-    up: str | None = None
-    front: str | None = None
-    handedness: str | None = None
-    unit: str | None = None
-    quaternion: str | None = None
-    mount: str | None = None
+    up: Annotated[
+        str | None, typer.Option(help="The world's up axis in the file: x, y, z, -x, -y or -z.")
+    ] = None
+    front: Annotated[
+        str | None, typer.Option(help="The prop's front axis in the file: x, y, z, -x, -y or -z.")
+    ] = None
+    handedness: Annotated[
+        str | None, typer.Option(help="right or left; Unity and Unreal write left-handed files.")
+    ] = None
+    unit: Annotated[
+        str | None, typer.Option(help="Unit of length in the file: m, cm, mm, in or ft.")
+    ] = None
+    quaternion: Annotated[str | None, typer.Option(help="Order of quaternions: xyzw or wxyz.")] = (
+        None
+    )
+    mount: Mount = None
 
     @classmethod
     def from_pairs(cls, pairs: Iterable[tuple[str, str]]) -> ReadingOptions:

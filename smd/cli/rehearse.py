@@ -8,17 +8,21 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, parsing, places, reading
+from smd.cli import capturing, parsing, places
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 from smd.cli.rehearsal import Rehearsal
 
 if TYPE_CHECKING:
     from smd.formats import SourceFrame
 
 
+@unfolded
 def rehearse(
     library: Annotated[
         Path, typer.Option("--library", help="The library to extend; made where there is none.")
     ],
+    *,
     actions: Annotated[
         list[str] | None,
         typer.Argument(metavar="[ACTION…]", help="Default: all that are drawn, in their order."),
@@ -51,12 +55,7 @@ def rehearse(
     rate: capturing.Rate = 90.0,
     source: capturing.Source = "openvr",
     figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    reading: ReadingOptions,
 ) -> None:
     """Add your own examples to actions that a library knows, and say what got better.
 
@@ -67,21 +66,20 @@ def rehearse(
 
     if take and actions:
         raise typer.BadParameter("expected ACTION, or --take ACTION=FILE, not both")
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    SourceFrame.from_options(**dict(options.pairs))  # what is wrong is told before anyone performs
+    SourceFrame.from_options(**dict(reading.pairs))  # what is wrong is told before anyone performs
     given = [_given(one) for one in take or ()]
     names = [name for name, _ in given] or actions or []
     rehearsal = Rehearsal.of(library, names, base=base, keep=keep, figure_height_m=figure_height)
     if bare := rehearsal.without_examples():
         typer.echo(bare)
     if given:
-        _from_files(rehearsal, given, options, device or [])
+        _from_files(rehearsal, given, reading, device or [])
     else:
         # A replay is read as the options say; its takes are in our frame, the mount apart.
         frame = SourceFrame.from_options(
-            **{name: value for name, value in options.pairs if name != "mount"}
+            **{name: value for name, value in reading.pairs if name != "mount"}
         )
-        kept = reading.ReadingOptions(mount=options.mount)
+        kept = ReadingOptions(mount=reading.mount)
         _from_source(rehearsal, source, rate, frame, times, device or [], output, kept)
     typer.echo("\n".join(rehearsal.written()))
 
@@ -97,7 +95,7 @@ def _given(text: str) -> tuple[str, Path]:
 def _from_files(
     rehearsal: Rehearsal,
     given: Sequence[tuple[str, Path]],
-    options: reading.ReadingOptions,
+    reading: ReadingOptions,
     devices: Sequence[str],
 ) -> None:
     """Look at recordings; all of them are added, or none."""
@@ -110,7 +108,7 @@ def _from_files(
     refused = []
     for action, place in given:
         for file in places.recording_files([place]):
-            doodle = one_example(file, options, device)
+            doodle = one_example(file, reading, device)
             try:
                 typer.echo(rehearsal.offer(action, file, doodle))
             except LearningError as error:
@@ -127,7 +125,7 @@ def _from_source(
     times: int,
     devices: Sequence[str],
     output: Path,
-    options: reading.ReadingOptions,
+    reading: ReadingOptions,
 ) -> None:
     """Lead through the actions, one round after another, and look at each take at once."""
     from smd.capture.opening import open_source
@@ -152,7 +150,7 @@ def _from_source(
         for path in capturing.held_takes(opened, names, place):
             if path is not None:
                 try:
-                    doodle = drawn_doodle(path, options)
+                    doodle = drawn_doodle(path, reading)
                     typer.echo(rehearsal.offer(asked[len(taken)], path, doodle))
                 except SmdError as error:
                     typer.echo(f"  not added: {error}")
