@@ -43,7 +43,7 @@ def learn(
     description: Annotated[
         str, typer.Option(help="What the gesture looks like, in one sentence.")
     ] = "",
-    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     device: one_doodle.OneDevice = None,
     reading: ReadingOptions,
 ) -> None:
@@ -55,4 +55,4 @@ def learn(
     lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
     files = list(places.recording_files(recordings))
     doodles = [one_doodle.one_example(file, reading, device) for file in files]
-    typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height)))
+    typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height_m)))

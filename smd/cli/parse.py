@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import libraries, parsing, places, score_lines
+from smd.cli import places, score_lines
 from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
 from smd.cli.option_groups import unfolded
+from smd.cli.parsing import Device, ParsingOptions
 from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
@@ -32,12 +33,8 @@ def parse(
     explain: Annotated[
         bool, typer.Option("--explain", help="Print what each phrase was weighed by.")
     ] = False,
-    library: libraries.Libraries = None,
-    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
-    tolerance: parsing.Tolerance = 1.0,
-    intent: parsing.Intent = None,
-    unexplained: parsing.Unexplained = parsing.UnexplainedName.LEAVE,
-    device: parsing.Device = None,
+    parsing: ParsingOptions,
+    device: Device = None,
     reading: ReadingOptions,
 ) -> None:
     """Recognise actions and their Effort.
@@ -48,22 +45,11 @@ def parse(
 
     files = list(places.recording_files(recordings))
     outputs = targets(recordings, files, output, places.SCORE_SUFFIX) if output else []
-    folders = libraries.LibraryFolders.from_options(library)
-    cast = folders.load()
-    understood = parsing.understanding(
-        reading,
-        cast,
-        folders,
-        figure_height_m=figure_height,
-        devices=device,
-        tolerance=tolerance,
-        intent=intent,
-        unexplained=unexplained,
-    )
+    cast = parsing.folders.load()
     scores: list[Score] = []
 
     def one(index: int, file: Path) -> None:
-        recording, score = understood(file)
+        recording, score = parsing.parse(file, reading, cast, device)
         scores.append(score)
         if outputs:
             write_score(places.beside(score, outputs[index]), outputs[index])
@@ -75,7 +61,7 @@ def parse(
 
                 typer.echo("\n".join(explanation(score, recording, cast)))
             for line in next_steps(
-                file, recording, score, cast, options=reading, tolerance=tolerance
+                file, recording, score, cast, options=reading, tolerance=parsing.tolerance
             ):
                 typer.echo(f"  {line}")
             if outputs:

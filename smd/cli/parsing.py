@@ -1,16 +1,15 @@
-"""The options that say how a recording is understood, and what reads its Score so."""
+"""The options that say how a recording is understood, shared by the commands that do."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli.libraries import LibraryFolders
+from smd.cli.libraries import Libraries, LibraryFolders
 from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
@@ -26,7 +25,10 @@ Device = Annotated[
 FIGURE_HEIGHT_M = 0.175  # smd.doodle's default, said here so that --help need not load NumPy
 FigureHeight = Annotated[
     float,
-    typer.Option(help="Height in metres of the figurine the prop stands for; it sets the scale."),
+    typer.Option(
+        "--figure-height",
+        help="Height in metres of the figurine the prop stands for; it sets the scale.",
+    ),
 ]
 Tolerance = Annotated[
     float,
@@ -45,15 +47,6 @@ class IntentName(StrEnum):
     FREE = "free"
 
 
-Intent = Annotated[
-    IntentName | None,
-    typer.Option(
-        help="Whether movement was meant: drawn, where a trigger was held, or free, where most is "
-        "not. Default: drawn where the recording says when the user drew."
-    ),
-]
-
-
 class UnexplainedName(StrEnum):
     """What is made of travel in which nothing is recognised."""
 
@@ -61,41 +54,51 @@ class UnexplainedName(StrEnum):
     FOLLOW = "follow"
 
 
-Unexplained = Annotated[
-    UnexplainedName,
-    typer.Option(
-        help="Where nothing is recognised and the prop travels: leave the character standing, or "
-        "let it follow in the gait that suits."
-    ),
-]
+@dataclass(frozen=True, slots=True)
+class ParsingOptions:
+    """How the user said that recordings are to be understood."""
 
+    library: Libraries = None
+    figure_height_m: FigureHeight = FIGURE_HEIGHT_M
+    tolerance: Tolerance = 1.0
+    intent: Annotated[
+        IntentName | None,
+        typer.Option(
+            help="Whether movement was meant: drawn, where a trigger was held, or free, where "
+            "most is not. Default: drawn where the recording says when the user drew."
+        ),
+    ] = None
+    unexplained: Annotated[
+        UnexplainedName,
+        typer.Option(
+            help="Where nothing is recognised and the prop travels: leave the character standing, "
+            "or let it follow in the gait that suits."
+        ),
+    ] = UnexplainedName.LEAVE
 
-def understanding(
-    options: ReadingOptions,
-    library: Library | Cast,
-    folders: LibraryFolders,
-    *,
-    figure_height_m: float,
-    devices: list[str] | None,
-    tolerance: float,
-    intent: str | None = None,
-    unexplained: str = UnexplainedName.LEAVE,
-) -> Callable[[Path], tuple[Recording, Score]]:
-    """Return what reads a recording and its Score; the Score keeps how it was read."""
+    @property
+    def folders(self) -> LibraryFolders:
+        """Where the libraries are; contradictory ones end the program as after wrong usage."""
+        return LibraryFolders.from_options(self.library)
 
-    def understood(file: Path) -> tuple[Recording, Score]:
+    def parse(
+        self,
+        file: Path,
+        reading: ReadingOptions,
+        library: Library | Cast,
+        devices: list[str] | None,
+    ) -> tuple[Recording, Score]:
+        """Return a recording and its Score; the Score keeps how it was read."""
         import smd
 
-        recording = options.read(file)
+        recording = reading.read(file)
         score = smd.parse(
             recording,
             library,
-            figure_height_m=figure_height_m,
+            figure_height_m=self.figure_height_m,
             devices=devices,
-            tolerance=tolerance,
-            intent=intent,
-            unexplained=unexplained,
+            tolerance=self.tolerance,
+            intent=self.intent,
+            unexplained=self.unexplained,
         )
-        return recording, folders.named_in(replace(score, reading=options.pairs))
-
-    return understood
+        return recording, self.folders.named_in(replace(score, reading=reading.pairs))

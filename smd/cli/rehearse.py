@@ -54,7 +54,7 @@ def rehearse(
     device: capturing.Devices = None,
     rate: capturing.Rate = 90.0,
     source: capturing.Source = "openvr",
-    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     reading: ReadingOptions,
 ) -> None:
     """Add your own examples to actions that a library knows, and say what got better.
@@ -69,7 +69,7 @@ def rehearse(
     SourceFrame.from_options(**dict(reading.pairs))  # what is wrong is told before anyone performs
     given = [_given(one) for one in take or ()]
     names = [name for name, _ in given] or actions or []
-    rehearsal = Rehearsal.of(library, names, base=base, keep=keep, figure_height_m=figure_height)
+    rehearsal = Rehearsal.of(library, names, base=base, keep=keep, figure_height_m=figure_height_m)
     if bare := rehearsal.without_examples():
         typer.echo(bare)
     if given:

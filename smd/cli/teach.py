@@ -37,7 +37,7 @@ def teach(
     device: capturing.Devices = None,
     rate: capturing.Rate = 90.0,
     source: capturing.Source = "openvr",
-    figure_height: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     mount: reading.Mount = None,
 ) -> None:
     """Teach an action by three performances.
@@ -71,7 +71,7 @@ def teach(
                 continue
             try:
                 doodle = one_doodle.drawn_doodle(path, options)
-                typer.echo(_told(path, doodle, figure_height))
+                typer.echo(_told(path, doodle, figure_height_m))
                 taken.append((path, doodle))
             except SmdError as error:
                 typer.echo(f"  not counted: {error}")
@@ -84,7 +84,7 @@ def teach(
             "perform it again, or ask for fewer with --performances"
         )
     files, doodles = ([one[i] for one in taken] for i in (0, 1))
-    typer.echo("\n".join(lesson.learned(files, doodles, "", figure_height)))  # type: ignore[arg-type]
+    typer.echo("\n".join(lesson.learned(files, doodles, "", figure_height_m)))  # type: ignore[arg-type]
 
 
 def _asked(action: str, number: int, of: int) -> str:

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.cli import libraries, parsing, places, reading, score_lines
+from smd.cli import places, score_lines
 from smd.cli.next_steps import LIVE, next_steps
+from smd.cli.parsing import ParsingOptions
+from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -116,16 +118,13 @@ class Understander:
         from smd.score_file import write_score
 
         how = self._how
-        options = reading.ReadingOptions(mount=None if how.mount is None else str(how.mount))
-        understood = parsing.understanding(
-            options,
-            self._library,
-            libraries.LibraryFolders(how.folder),
+        options = ReadingOptions(mount=None if how.mount is None else str(how.mount))
+        parsing = ParsingOptions(
+            library=None if how.folder is None else [str(how.folder)],
             figure_height_m=how.figure_height_m,
-            devices=devices,
             tolerance=how.tolerance,
         )
-        recording, score = understood(take.with_suffix(".csv"))
+        recording, score = parsing.parse(take.with_suffix(".csv"), options, self._library, devices)
         score_file = take.with_suffix(places.SCORE_SUFFIX)
         write_score(places.beside(score, score_file), score_file)
         _say(f"{take.with_suffix(how.suffix)}: {score_lines.summary(recording, score)}")
