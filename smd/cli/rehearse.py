@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, parsing, places
+from smd.cli import parsing, places
+from smd.cli.capturing import CapturingOptions, held_takes
 from smd.cli.option_groups import unfolded
 from smd.cli.reading import ReadingOptions
 from smd.cli.rehearsal import Rehearsal
@@ -51,9 +52,7 @@ def rehearse(
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
     ] = Path("rehearsals"),
-    device: capturing.Devices = None,
-    rate: capturing.Rate = 90.0,
-    source: capturing.Source = "openvr",
+    capturing: CapturingOptions,
     figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     reading: ReadingOptions,
 ) -> None:
@@ -73,14 +72,14 @@ def rehearse(
     if bare := rehearsal.without_examples():
         typer.echo(bare)
     if given:
-        _from_files(rehearsal, given, reading, device or [])
+        _from_files(rehearsal, given, reading, capturing.devices or [])
     else:
         # A replay is read as the options say; its takes are in our frame, the mount apart.
         frame = SourceFrame.from_options(
             **{name: value for name, value in reading.pairs if name != "mount"}
         )
         kept = ReadingOptions(mount=reading.mount)
-        _from_source(rehearsal, source, rate, frame, times, device or [], output, kept)
+        _from_source(rehearsal, capturing, frame, kept, times=times, output=output)
     typer.echo("\n".join(rehearsal.written()))
 
 
@@ -119,35 +118,32 @@ def _from_files(
 
 def _from_source(
     rehearsal: Rehearsal,
-    source: str,
-    rate_hz: float,
+    capturing: CapturingOptions,
     frame: SourceFrame,
-    times: int,
-    devices: Sequence[str],
-    output: Path,
     reading: ReadingOptions,
+    *,
+    times: int,
+    output: Path,
 ) -> None:
     """Lead through the actions, one round after another, and look at each take at once."""
-    from smd.capture.opening import open_source
-    from smd.capture.selection import chosen_devices, require_trigger
+    from smd.capture.selection import require_trigger
     from smd.capture.shelf import Shelf
-    from smd.capture.take import require_rate
     from smd.cli.one_doodle import drawn_doodle
     from smd.errors import CaptureError, SmdError
 
-    require_rate(rate_hz)
+    capturing.require_rate()
     asked, taken = rehearsal.names * times, rehearsal.takes
-    with open_source(source, rate_hz, frame) as opened:
+    with capturing.opened(frame) as opened:
         there = opened.devices()
         require_trigger(there)
-        names = {each.serial: each.name for each in chosen_devices(there, devices)}
+        names = capturing.names_of(there)
         shelves = {name: Shelf(output, name) for name in rehearsal.names}
 
         def place() -> Path:
             return shelves[asked[len(taken)]].next().with_suffix(".csv")
 
         typer.echo(rehearsal.asked(0, asked))
-        for path in capturing.held_takes(opened, names, place):
+        for path in held_takes(opened, names, place):
             if path is not None:
                 try:
                     doodle = drawn_doodle(path, reading)

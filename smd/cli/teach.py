@@ -7,17 +7,22 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, one_doodle, parsing, reading
+from smd.cli import one_doodle, parsing
+from smd.cli.capturing import CapturingOptions, held_takes
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import Mount, ReadingOptions
 
 if TYPE_CHECKING:
     from smd.doodle import Doodle
 
 
+@unfolded
 def teach(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
     library: Annotated[
         Path, typer.Option("--library", help="The library to extend; made where there is none.")
     ],
+    *,
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
     ] = Path("lessons"),
@@ -34,35 +39,31 @@ def teach(
     replace: Annotated[
         bool, typer.Option("--replace", help="Learn an action anew that the library has.")
     ] = False,
-    device: capturing.Devices = None,
-    rate: capturing.Rate = 90.0,
-    source: capturing.Source = "openvr",
+    capturing: CapturingOptions,
     figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
-    mount: reading.Mount = None,
+    mount: Mount = None,
 ) -> None:
     """Teach an action by three performances.
 
     Hold the trigger during each. The grip discards the last one; their recordings are kept.
     """
-    from smd.capture.opening import open_source
-    from smd.capture.selection import chosen_devices, require_trigger
+    from smd.capture.selection import require_trigger
     from smd.capture.shelf import Shelf
-    from smd.capture.take import require_rate
     from smd.cli.lesson import Lesson
     from smd.errors import CaptureError, SmdError
-    from smd.formats import Mount
+    from smd.formats import Mount as ParsedMount
 
-    require_rate(rate)
+    capturing.require_rate()
     lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
-    options = reading.ReadingOptions(mount=None if mount is None else str(Mount.parse(mount)))
+    options = ReadingOptions(mount=None if mount is None else str(ParsedMount.parse(mount)))
     taken: list[tuple[Path, Doodle]] = []
-    with open_source(source, rate) as opened:
+    with capturing.opened() as opened:
         there = opened.devices()
         require_trigger(there)
-        names = {each.serial: each.name for each in chosen_devices(there, device or ())}
+        names = capturing.names_of(there)
         shelf = Shelf(output, action)
         typer.echo(_asked(action, 1, performances))
-        for path in capturing.held_takes(opened, names, lambda: shelf.next().with_suffix(".csv")):
+        for path in held_takes(opened, names, lambda: shelf.next().with_suffix(".csv")):
             if path is None:
                 if taken:
                     last, _doodle = taken.pop()

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.cli import places, score_lines
+from smd.cli import places, reading, score_lines
+from smd.cli.acting import FramesPerSecond
 from smd.cli.next_steps import LIVE, next_steps
-from smd.cli.parsing import ParsingOptions
-from smd.cli.reading import ReadingOptions
+from smd.cli.parsing import FIGURE_HEIGHT_M, FigureHeight, ParsingOptions, Tolerance
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -25,6 +25,16 @@ SHOWN_OTHERS = 2
 
 
 @dataclass(frozen=True, slots=True)
+class StoryOptions:
+    """How the user said that what is played is to be understood and acted out."""
+
+    figure_height_m: FigureHeight = FIGURE_HEIGHT_M
+    tolerance: Tolerance = 1.0
+    fps: FramesPerSecond = 24.0
+    mount: reading.Mount = None
+
+
+@dataclass(frozen=True, slots=True)
 class Understanding:
     """How stories are to be understood and acted out.
 
@@ -33,17 +43,14 @@ class Understanding:
     folder : of the library; None for the shipped one.
     suffix : format of the animations.
     picture : whether a timeline of each story is drawn.
-    figure_height_m, tolerance : as in `smd.parse`.
-    fps : of the animations.
-    mount : how the prop sits on its tracker.
+    story : what the user said of each.
+    mount : how the prop sits on its tracker, as ``story`` says it.
     """
 
     folder: Path | None
     suffix: str
     picture: bool
-    figure_height_m: float
-    tolerance: float
-    fps: float
+    story: StoryOptions
     mount: Mount | None
 
     def begun(self) -> Understander:
@@ -54,7 +61,7 @@ class Understanding:
 
         library = smd.load_library(self.folder)
         recognizer = recognizer_of(
-            library, figure_height_m=self.figure_height_m, tolerance=self.tolerance
+            library, figure_height_m=self.story.figure_height_m, tolerance=self.story.tolerance
         )
         return Understander(self, library, recognizer, load_effort_model())
 
@@ -118,11 +125,11 @@ class Understander:
         from smd.score_file import write_score
 
         how = self._how
-        options = ReadingOptions(mount=None if how.mount is None else str(how.mount))
+        options = reading.ReadingOptions(mount=None if how.mount is None else str(how.mount))
         parsing = ParsingOptions(
             library=None if how.folder is None else [str(how.folder)],
-            figure_height_m=how.figure_height_m,
-            tolerance=how.tolerance,
+            figure_height_m=how.story.figure_height_m,
+            tolerance=how.story.tolerance,
         )
         recording, score = parsing.parse(take.with_suffix(".csv"), options, self._library, devices)
         score_file = take.with_suffix(places.SCORE_SUFFIX)
@@ -136,7 +143,7 @@ class Understander:
             score,
             smd.Cast(self._library),
             options=options,
-            tolerance=how.tolerance,
+            tolerance=how.story.tolerance,
             only=LIVE,
         ):
             _say(f"  {line}")
@@ -144,7 +151,7 @@ class Understander:
             from exporters.timeline import write_timeline
 
             write_timeline(recording, score, take.with_suffix(".timeline.png"))
-        performance = smd.animate(score, recording, self._library, rate_hz=how.fps)
+        performance = smd.animate(score, recording, self._library, rate_hz=how.story.fps)
         smd.write(performance, take.with_suffix(how.suffix))
 
 
