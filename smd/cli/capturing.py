@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -12,7 +13,6 @@ import typer
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
     from contextlib import AbstractContextManager
-    from pathlib import Path
 
     from smd.capture.source import Device
     from smd.capture.source import Source as OpenSource
@@ -35,6 +35,9 @@ Devices = Annotated[
     ),
 ]
 Rate = Annotated[float, typer.Option("--rate", help="Frames a second, 10 to 1000.")]
+TakesFolder = Annotated[
+    Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
+]
 
 RATE_HZ = 90.0
 """Of most headsets."""

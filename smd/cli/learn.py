@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Annotated
 
 import typer
 
 from smd.cli import one_doodle, parsing, places
-from smd.cli.lesson import Lesson
+from smd.cli.lesson import Lesson, LessonOptions
+from smd.cli.libraries import ExtendedFolder
 from smd.cli.option_groups import unfolded
 from smd.cli.reading import ReadingOptions
 
 
-@unfolded
-def learn(
-    action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
-    recordings: places.Recordings,
-    *,
-    library: Annotated[
-        Path, typer.Option("--library", help="The library to extend; made where there is none.")
-    ],
+@dataclass(frozen=True, slots=True)
+class LearnOptions(LessonOptions):
+    """The same options, told at more length."""
+
     clip: Annotated[
         str | None,
         typer.Option(
@@ -28,7 +25,7 @@ def learn(
             help="Perform it with the clip of this action, of the library's or the shipped ones. "
             "Default: that of the same name, else idle.",
         ),
-    ] = None,
+    ] = None
     base: Annotated[
         str | None,
         typer.Option(
@@ -36,10 +33,16 @@ def learn(
             help="Begin a new library with all actions of this one: a folder, or `humanoid` for "
             "the shipped one. Default: with its character and idling alone.",
         ),
-    ] = None,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
-    ] = False,
+    ] = None
+
+
+@unfolded
+def learn(
+    action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
+    recordings: places.Recordings,
+    *,
+    library: ExtendedFolder,
+    learning: LearnOptions,
     description: Annotated[
         str, typer.Option(help="What the gesture looks like, in one sentence.")
     ] = "",
@@ -52,7 +55,7 @@ def learn(
     Each RECORDING is one performance of it; three to five are a good number. Extends a library,
     or makes one.
     """
-    lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
+    lesson = Lesson.of(action, library, learning)
     files = list(places.recording_files(recordings))
     doodles = [one_doodle.one_example(file, reading, device) for file in files]
     typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height_m)))

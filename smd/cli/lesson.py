@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 from smd.cli.wording import count
 
@@ -28,7 +30,23 @@ SHOWN_TOKENS = 8
 """Of more optional tokens, the others are counted; the pattern has them all."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True)
+class LessonOptions:
+    """How the user said that an action is to be learned, and beside which others."""
+
+    clip: Annotated[
+        str | None, typer.Option("--clip", help="Perform it with the clip of this action.")
+    ] = None
+    base: Annotated[
+        str | None,
+        typer.Option("--from", help="Begin a new library with all actions of this one."),
+    ] = None
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
+    ] = False
+
+
+@dataclass(frozen=True, slots=True)
 class Lesson:
     """An action to learn, and the library to learn it into, checked before anyone performs.
 
@@ -53,16 +71,8 @@ class Lesson:
     clip: str | None
 
     @classmethod
-    def of(
-        cls,
-        action: str,
-        folder: Path,
-        *,
-        clip: str | None = None,
-        base: str | None = None,
-        replace: bool = False,
-    ) -> Lesson:
-        """Return the lesson that a user asks for; the options are those of ``smd learn``.
+    def of(cls, action: str, folder: Path, options: LessonOptions) -> Lesson:
+        """Return the lesson that a user asks for.
 
         Raises
         ------
@@ -74,6 +84,7 @@ class Lesson:
         from actions_library.manifest import MANIFEST
         from smd.errors import LibraryError
 
+        base = options.base
         require_name(action)
         shipped = smd.load_library()
         there = (folder / MANIFEST).is_file()
@@ -84,10 +95,10 @@ class Lesson:
         else:
             start = shipped if base in (None, shipped.name) else smd.load_library(base)
         kept = [known.name for known in start.actions] if there or base is not None else []
-        if action in kept and not replace:
+        if action in kept and not options.replace:
             require_new(start, action)
-        shelf, shown = clip_source(action, clip, (start, shipped))
-        return cls(action, folder, there, start, kept, shelf, shown, clip)
+        shelf, shown = clip_source(action, options.clip, (start, shipped))
+        return cls(action, folder, there, start, kept, shelf, shown, options.clip)
 
     def learned(
         self, files: list[Path], doodles: list[Doodle], description: str, figure_height_m: float
@@ -98,7 +109,7 @@ class Lesson:
         new, learned = _learned(self.action, files, doodles, figure_height_m)
         before = next((a for a in self.start.actions if a.name == self.action), None)
         before = before if self.action in self.kept else None
-        new = dataclasses.replace(
+        new = replace(
             new,
             travels=self.shown.travels,
             cyclic=self.shown.cyclic,
@@ -106,7 +117,7 @@ class Lesson:
             rest=before.rest if before else "",
         )
         report = [*_report(new, learned), *_rests(files, doodles, figure_height_m)]
-        performed = dataclasses.replace(self.shelf.clip(self.shown.name), name=self.action)
+        performed = replace(self.shelf.clip(self.shown.name), name=self.action)
         credit = self.shelf.credit(self.shown.name)
         if self.there:
             extended = add_action(self.start, new, performed, credit)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 LibraryFolder = Annotated[
     Path | None, typer.Option("--library", help="A library folder. Default: the shipped humanoid.")
 ]
+ExtendedFolder = Annotated[
+    Path, typer.Option("--library", help="The library to extend; made where there is none.")
+]
 Libraries = Annotated[
     list[str] | None,
     typer.Option(

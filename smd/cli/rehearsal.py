@@ -6,9 +6,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from smd.cli.parsing import FIGURE_HEIGHT_M
+import typer
+
+from smd.cli.capturing import TakesFolder
 from smd.cli.wording import count
 
 if TYPE_CHECKING:
@@ -17,6 +19,38 @@ if TYPE_CHECKING:
     from smd.recognition import Recognizer
     from smd.recognition.action import Action
     from smd.recognition.rehearsal import Likeness
+
+
+@dataclass(frozen=True, slots=True)
+class RehearsingOptions:
+    """How the user said that actions are to be rehearsed."""
+
+    take: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--take",
+            metavar="ACTION=FILE",
+            help="A recording of one performance of it, or a folder of such, instead of a device; "
+            "may be repeated.",
+        ),
+    ] = None
+    base: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            help="Begin a new library with all actions of this one: a folder. Default: with the "
+            "shipped ones.",
+        ),
+    ] = None
+    times: Annotated[int, typer.Option(help="How often each action is drawn.", min=1, max=20)] = 1
+    keep: Annotated[
+        bool, typer.Option("--keep", help="Add takes that look like another action, too.")
+    ] = False
+    output: TakesFolder = Path("rehearsals")
+
+    def given(self) -> list[tuple[str, Path]]:
+        """Return actions and their files, or end as after wrong usage."""
+        return [_given(one) for one in self.take or ()]
 
 
 @dataclass(slots=True)
@@ -49,12 +83,11 @@ class Rehearsal:
         cls,
         folder: Path,
         names: Sequence[str],
+        options: RehearsingOptions,
         *,
-        base: str | None = None,
-        keep: bool = False,
-        figure_height_m: float = FIGURE_HEIGHT_M,
+        figure_height_m: float,
     ) -> Rehearsal:
-        """Return the rehearsal that a user asks for; the options are those of the command.
+        """Return the rehearsal that a user asks for.
 
         Raises
         ------
@@ -67,6 +100,7 @@ class Rehearsal:
         from smd.errors import LibraryError
         from smd.recognition import Recognizer
 
+        base = options.base
         there = (folder / MANIFEST).is_file()
         if there and base is not None:
             raise LibraryError(f"{folder}: expected no library there to begin one --from {base}")
@@ -87,7 +121,7 @@ class Rehearsal:
             raise LibraryError(f"{start.folder}: expected actions that are drawn, found none")
         recognizer = Recognizer(start, figure_height_m=figure_height_m)
         asked = list(dict.fromkeys(names)) or drawn
-        return cls(folder, start, there, asked, keep, figure_height_m, recognizer)
+        return cls(folder, start, there, asked, options.keep, figure_height_m, recognizer)
 
     def without_examples(self) -> str:
         """Return a line on actions that have no examples, the old way; empty if all have some."""
@@ -192,3 +226,11 @@ def _told(looks: Sequence[Likeness]) -> str:
 def _placed(place: int) -> str:
     """Return a place among all actions in words."""
     return "first" if place == 1 else f"no. {place}"
+
+
+def _given(text: str) -> tuple[str, Path]:
+    """Return what ``--take`` was given, or end as after wrong usage."""
+    action, equals, file = text.partition("=")
+    if not equals or not action or not file:
+        raise typer.BadParameter(f"--take: expected ACTION=FILE, got {text!r}")
+    return action, Path(file)

@@ -10,9 +10,10 @@ import typer
 
 from smd.cli import parsing, places
 from smd.cli.capturing import CapturingOptions, held_takes
+from smd.cli.libraries import ExtendedFolder
 from smd.cli.option_groups import unfolded
 from smd.cli.reading import ReadingOptions
-from smd.cli.rehearsal import Rehearsal
+from smd.cli.rehearsal import Rehearsal, RehearsingOptions
 
 if TYPE_CHECKING:
     from smd.formats import SourceFrame
@@ -20,38 +21,13 @@ if TYPE_CHECKING:
 
 @unfolded
 def rehearse(
-    library: Annotated[
-        Path, typer.Option("--library", help="The library to extend; made where there is none.")
-    ],
+    library: ExtendedFolder,
     *,
     actions: Annotated[
         list[str] | None,
         typer.Argument(metavar="[ACTION…]", help="Default: all that are drawn, in their order."),
     ] = None,
-    take: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--take",
-            metavar="ACTION=FILE",
-            help="A recording of one performance of it, or a folder of such, instead of a device; "
-            "may be repeated.",
-        ),
-    ] = None,
-    base: Annotated[
-        str | None,
-        typer.Option(
-            "--from",
-            help="Begin a new library with all actions of this one: a folder. Default: with the "
-            "shipped ones.",
-        ),
-    ] = None,
-    times: Annotated[int, typer.Option(help="How often each action is drawn.", min=1, max=20)] = 1,
-    keep: Annotated[
-        bool, typer.Option("--keep", help="Add takes that look like another action, too.")
-    ] = False,
-    output: Annotated[
-        Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
-    ] = Path("rehearsals"),
+    rehearsing: RehearsingOptions,
     capturing: CapturingOptions,
     figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     reading: ReadingOptions,
@@ -63,12 +39,12 @@ def rehearse(
     """
     from smd.formats import SourceFrame
 
-    if take and actions:
+    if rehearsing.take and actions:
         raise typer.BadParameter("expected ACTION, or --take ACTION=FILE, not both")
     SourceFrame.from_options(**dict(reading.pairs))  # what is wrong is told before anyone performs
-    given = [_given(one) for one in take or ()]
+    given = rehearsing.given()
     names = [name for name, _ in given] or actions or []
-    rehearsal = Rehearsal.of(library, names, base=base, keep=keep, figure_height_m=figure_height_m)
+    rehearsal = Rehearsal.of(library, names, rehearsing, figure_height_m=figure_height_m)
     if bare := rehearsal.without_examples():
         typer.echo(bare)
     if given:
@@ -79,16 +55,8 @@ def rehearse(
             **{name: value for name, value in reading.pairs if name != "mount"}
         )
         kept = ReadingOptions(mount=reading.mount)
-        _from_source(rehearsal, capturing, frame, kept, times=times, output=output)
+        _from_source(rehearsal, rehearsing, capturing, frame, kept)
     typer.echo("\n".join(rehearsal.written()))
-
-
-def _given(text: str) -> tuple[str, Path]:
-    """Return what ``--take`` was given, or end as after wrong usage."""
-    action, equals, file = text.partition("=")
-    if not equals or not action or not file:
-        raise typer.BadParameter(f"--take: expected ACTION=FILE, got {text!r}")
-    return action, Path(file)
 
 
 def _from_files(
@@ -118,12 +86,10 @@ def _from_files(
 
 def _from_source(
     rehearsal: Rehearsal,
+    options: RehearsingOptions,
     capturing: CapturingOptions,
     frame: SourceFrame,
     reading: ReadingOptions,
-    *,
-    times: int,
-    output: Path,
 ) -> None:
     """Lead through the actions, one round after another, and look at each take at once."""
     from smd.capture.selection import require_trigger
@@ -132,12 +98,12 @@ def _from_source(
     from smd.errors import CaptureError, SmdError
 
     capturing.require_rate()
-    asked, taken = rehearsal.names * times, rehearsal.takes
+    asked, taken = rehearsal.names * options.times, rehearsal.takes
     with capturing.opened(frame) as opened:
         there = opened.devices()
         require_trigger(there)
         names = capturing.names_of(there)
-        shelves = {name: Shelf(output, name) for name in rehearsal.names}
+        shelves = {name: Shelf(options.output, name) for name in rehearsal.names}
 
         def place() -> Path:
             return shelves[asked[len(taken)]].next().with_suffix(".csv")
@@ -162,5 +128,5 @@ def _from_source(
     if len(taken) < len(asked):
         raise CaptureError(
             f"expected {len(asked)} performances, got {len(taken)}, and added none: rehearse fewer "
-            f"actions, or give those in {output} with --take ACTION=FILE"
+            f"actions, or give those in {options.output} with --take ACTION=FILE"
         )

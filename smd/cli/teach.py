@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from smd.cli import one_doodle, parsing
-from smd.cli.capturing import CapturingOptions, held_takes
+from smd.cli.capturing import CapturingOptions, TakesFolder, held_takes
+from smd.cli.lesson import Lesson, LessonOptions
+from smd.cli.libraries import ExtendedFolder
 from smd.cli.option_groups import unfolded
 from smd.cli.reading import Mount, ReadingOptions
 
@@ -19,26 +21,13 @@ if TYPE_CHECKING:
 @unfolded
 def teach(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
-    library: Annotated[
-        Path, typer.Option("--library", help="The library to extend; made where there is none.")
-    ],
+    library: ExtendedFolder,
     *,
-    output: Annotated[
-        Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
-    ] = Path("lessons"),
+    output: TakesFolder = Path("lessons"),
     performances: Annotated[
         int, typer.Option(help="How often the gesture is drawn.", min=1, max=20)
     ] = 3,
-    clip: Annotated[
-        str | None, typer.Option("--clip", help="Perform it with the clip of this action.")
-    ] = None,
-    base: Annotated[
-        str | None,
-        typer.Option("--from", help="Begin a new library with all actions of this one."),
-    ] = None,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
-    ] = False,
+    learning: LessonOptions,
     capturing: CapturingOptions,
     figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
     mount: Mount = None,
@@ -49,12 +38,11 @@ def teach(
     """
     from smd.capture.selection import require_trigger
     from smd.capture.shelf import Shelf
-    from smd.cli.lesson import Lesson
     from smd.errors import CaptureError, SmdError
     from smd.formats import Mount as ParsedMount
 
     capturing.require_rate()
-    lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
+    lesson = Lesson.of(action, library, learning)
     options = ReadingOptions(mount=None if mount is None else str(ParsedMount.parse(mount)))
     taken: list[tuple[Path, Doodle]] = []
     with capturing.opened() as opened:
