@@ -41,14 +41,15 @@ def unfolded(command: Callable[..., None]) -> Callable[..., None]:
     (*, picture: str, width_m: float = 1.0, height_m: float = 2.0)
     """
     hints = get_type_hints(command, include_extras=True)
-    groups: dict[str, type[Any]] = {}
+    groups: dict[str, tuple[type[Any], list[str]]] = {}
     parameters: list[inspect.Parameter] = []
     for name, parameter in inspect.signature(command).parameters.items():
         annotation = hints.get(name, parameter.annotation)
         if isinstance(annotation, type) and dataclasses.is_dataclass(annotation):
             _require_group(command, parameter, annotation)
-            groups[name] = annotation
-            parameters += _options(annotation)
+            options = _options(annotation)
+            groups[name] = annotation, [option.name for option in options]
+            parameters += options
         else:
             parameters.append(_option(name, annotation, parameter.default))
     _require_once(command, parameters)
@@ -56,8 +57,8 @@ def unfolded(command: Callable[..., None]) -> Callable[..., None]:
     @functools.wraps(command)
     def call(**values: Any) -> None:
         made = {
-            name: group(**{option.name: values.pop(option.name) for option in _fields(group)})
-            for name, group in groups.items()
+            name: group(**{option: values.pop(option) for option in options})
+            for name, (group, options) in groups.items()
         }
         command(**values, **made)
 
@@ -66,19 +67,18 @@ def unfolded(command: Callable[..., None]) -> Callable[..., None]:
     return call
 
 
-def _fields(group: type[Any]) -> list[dataclasses.Field[Any]]:
-    """Return the fields that a group is made of."""
-    return [field for field in dataclasses.fields(group) if field.init]
-
-
-def _options(group: type[Any]) -> Iterator[inspect.Parameter]:
-    """Yield a group's fields as parameters of a command."""
+@functools.cache  # seven commands read recordings, and --help waits for all of them
+def _options(group: type[Any]) -> tuple[inspect.Parameter, ...]:
+    """Return a group's fields as parameters of a command."""
     hints = get_type_hints(group, include_extras=True)
-    for field in _fields(group):
-        given = [
+    defaults = {
+        field.name: [
             one for one in (field.default, field.default_factory) if one is not dataclasses.MISSING
         ]
-        yield _option(field.name, hints[field.name], *given)
+        for field in dataclasses.fields(group)
+        if field.init
+    }
+    return tuple(_option(name, hints[name], *given) for name, given in defaults.items())
 
 
 def _option(

@@ -13,7 +13,7 @@ import typer
 from smd.cli.capturing import CapturingOptions
 from smd.cli.libraries import LibraryFolder
 from smd.cli.option_groups import unfolded
-from smd.cli.understanding import StoryOptions, Understanding
+from smd.cli.stories import StoryOptions
 
 if TYPE_CHECKING:
     from smd.capture.beside import Beside
@@ -46,7 +46,7 @@ def play(
     from smd.capture.hand import grips, stretches
     from smd.capture.selection import require_trigger
     from smd.capture.shelf import Shelf
-    from smd.formats import Mount
+    from smd.cli.understanding import Understanding
 
     capturing.require_rate()
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
@@ -56,7 +56,7 @@ def play(
         suffix=suffix,
         picture=picture,
         story=story,
-        mount=None if story.mount is None else Mount.parse(story.mount),
+        mount=story.mounted(),
     )
     with Beside(understanding.begun) as beside, capturing.opened() as opened:
         there = opened.devices()

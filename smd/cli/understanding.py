@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.cli import places, reading, score_lines
-from smd.cli.acting import FramesPerSecond
+from smd.cli import places, score_lines
 from smd.cli.next_steps import LIVE, next_steps
-from smd.cli.parsing import FIGURE_HEIGHT_M, FigureHeight, ParsingOptions, Tolerance
+from smd.cli.parsing import ParsingOptions
+from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -17,21 +17,12 @@ if TYPE_CHECKING:
     from smd.capture.live import Decided, LiveRecognition
     from smd.capture.shelf import Shelf
     from smd.capture.source import Row
+    from smd.cli.stories import StoryOptions
     from smd.formats import Mount
     from smd.recognition import Recognizer
 
 SHOWN_OTHERS = 2
 """So many alternatives are shown to each phrase."""
-
-
-@dataclass(frozen=True, slots=True)
-class StoryOptions:
-    """How the user said that what is played is to be understood and acted out."""
-
-    figure_height_m: FigureHeight = FIGURE_HEIGHT_M
-    tolerance: Tolerance = 1.0
-    fps: FramesPerSecond = 24.0
-    mount: reading.Mount = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +116,7 @@ class Understander:
         from smd.score_file import write_score
 
         how = self._how
-        options = reading.ReadingOptions(mount=None if how.mount is None else str(how.mount))
+        options = ReadingOptions(mount=None if how.mount is None else str(how.mount))
         parsing = ParsingOptions(
             library=None if how.folder is None else [str(how.folder)],
             figure_height_m=how.story.figure_height_m,
