@@ -1,4 +1,4 @@
-"""The options that say how a recording is understood, shared by the commands that do."""
+"""The options that say how a recording is understood, shared by the commands that parse."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import doctest
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -173,6 +174,26 @@ def test_a_default_that_is_made_is_made_anew_for_each_run():
     assert seen[0]["sizes"] is not seen[1]["sizes"]
 
 
+@dataclass(frozen=True, slots=True)
+class Pen(Line):
+    """A group that tells one option otherwise."""
+
+    width: Annotated[float, typer.Option(help="Of the pen.", min=0.5, max=2.0)] = 1.0
+
+
+def test_a_group_may_tell_an_option_of_another_otherwise_in_its_place():
+    def draw(*, line: Line) -> None: ...
+
+    said = []
+    for group in (Line, Pen):
+        draw.__annotations__ = {"line": group, "return": None}
+        said.append(CliRunner().invoke(program(unfolded(draw)), ["--help"]).output.splitlines())
+    told = [(a.split(), b.split()) for a, b in zip(*said, strict=True) if a != b]
+    assert [(a[0], b[0]) for a, b in told][:1] == [("--width", "--width")]
+    assert "pen." in [word for _, b in told for word in b]
+    assert len(told) <= 2  # what the option says, on one line or two
+
+
 def test_what_a_group_refuses_is_wrong_usage():
     @dataclass(frozen=True)
     class Even:
@@ -270,7 +291,7 @@ def commands(group: Any = None, place: tuple[str, ...] = ()) -> dict[str, Any]:
 def test_spellings_are_those_that_typer_reads():
     draw = in_groups([])
     typed = [{*one.opts, *one.secondary_opts} for one in get_command(program(draw)).params[1:]]
-    parameters = list(option_groups.inspect.signature(draw).parameters.values())[1:]
+    parameters = list(inspect.signature(draw).parameters.values())[1:]
     assert [set(option_groups._spellings(one)) for one in parameters] == typed
 
 
@@ -279,6 +300,13 @@ def test_no_command_of_the_program_has_an_option_twice(name):
     options = [one for one in commands()[name].params if one.param_type_name == "option"]
     spelled = [text for one in options for text in (*one.opts, *one.secondary_opts)]
     assert len(set(spelled)) == len(spelled)
+
+
+@pytest.mark.parametrize("name", commands())
+def test_no_command_of_the_program_takes_ten_parameters(name):
+    # typer wraps what it was given once, and `unfolded` the command itself
+    parameters = inspect.signature(inspect.unwrap(commands()[name].callback)).parameters
+    assert len(parameters) < 10
 
 
 def test_the_example_of_the_docstring_runs():
