@@ -3,66 +3,47 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from smd.cli import reading, writing
+from smd.cli import score_lines
+from smd.cli.acting import ActingOptions
+from smd.cli.libraries import Libraries, LibraryFolders
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
+from smd.cli.writing import WritingOptions
 
-if TYPE_CHECKING:
-    from smd.acting.performance import Performance
 
-
+@unfolded
 def animate(
     score_file: Annotated[Path, typer.Argument(metavar="SCORE", help="A Score from `smd parse`.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="OUT.usda, OUT.usdc or OUT.usdz.")],
+    *,
     recording: Annotated[
         Path | None,
         typer.Option(help="The recording. Default: the one the Score names, beside the Score."),
     ] = None,
-    library: reading.Libraries = None,
-    fps: reading.FramesPerSecond = 24.0,
-    expressiveness: reading.Expressiveness = 1.0,
-    heading: reading.Heading = reading.HeadingName.PROP,
-    ground: reading.Ground = None,
-    variants: writing.Variants = False,
-    layers: writing.Layers = False,
-    phrases: writing.Phrases = False,
-    stage_up: writing.Up = writing.StageUp.Y,
-    stage_unit: writing.Unit = writing.StageUnit.M,
+    library: Libraries = None,
+    acting: ActingOptions,
+    writing: WritingOptions,
 ) -> None:
     """Act out a Score, perhaps corrected by hand.
 
     It is played on its recording's path and in its timing.
     """
-    import smd
-    from actions_library.importers.usd_ground import read_terrain
     from smd.errors import ScoreError
     from smd.score_file import read_score
 
-    written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
-    written.check(output)
+    writing.check(output)
     score = read_score(score_file)
     if recording is None:
         if not score.recording:
             raise ScoreError(f"{score_file}: recording: expected a path, or --recording FILE")
         recording = score_file.parent / score.recording
-    options = reading.ReadingOptions.from_pairs(score.reading)
-    take = options.read(recording)
-    cast = reading.LibraryFolders.from_options(library).over(score, score_file).load()
-    terrain = None if ground is None else read_terrain(ground)
-
-    def act(how_much: float) -> Performance:
-        return smd.animate(
-            score,
-            take,
-            cast,
-            rate_hz=fps,
-            expressiveness=how_much,
-            heading=heading,
-            ground=terrain,
-        )
-
-    performance = written.write(score, act, expressiveness, output)
-    said = f"{output}: {reading.summary(take, score)}"
+    take = ReadingOptions.from_pairs(score.reading).read(recording)
+    cast = LibraryFolders.from_options(library).over(score, score_file).load()
+    act = acting.acts_out(score, take, cast, acting.terrain())
+    performance = writing.write(score, act, acting.expressiveness, output)
+    said = f"{output}: {score_lines.summary(take, score)}"
     typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))

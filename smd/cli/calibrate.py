@@ -6,18 +6,17 @@ import math
 
 import typer
 
-from smd.cli import reading
+from smd.cli import one_doodle, places
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 
 
+@unfolded
 def calibrate(
-    recordings: reading.Recordings,
-    device: reading.OneDevice = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    recordings: places.Recordings,
+    *,
+    device: one_doodle.OneDevice = None,
+    reading: ReadingOptions,
 ) -> None:
     """Find the lever arm from tracker to prop.
 
@@ -29,19 +28,18 @@ def calibrate(
     from smd.recognition.lever import estimate_lever
     from smd.smoothing import smooth
 
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    files = list(reading.recording_files(recordings))
+    files = list(places.recording_files(recordings))
     motions = []
     for file in files:
         try:
-            motions += [smooth(d) for d in reading.doodles_of_one(options.read(file), device)]
+            motions += [smooth(d) for d in one_doodle.doodles_of_one(reading.read(file), device)]
         except DoodleError as error:
             raise RecordingError(f"{file}: {error}") from error
     try:
         arm = estimate_lever(motions)
     except DoodleError as error:
         raise RecordingError(f"{', '.join(map(str, files))}: {error}") from error
-    known = Mount() if mount is None else Mount.parse(mount)
+    known = Mount() if reading.mount is None else Mount.parse(reading.mount)
     numbers = ", ".join(
         f"{axis} {1000 * length:.1f} ± {2000 * error:.1f}"
         for axis, length, error in zip("xyz", arm.lever_m, arm.error_m, strict=True)

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import sys
 import time
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-    from pathlib import Path
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from contextlib import AbstractContextManager
 
+    from smd.capture.source import Device
     from smd.capture.source import Source as OpenSource
     from smd.capture.take import Progress
+    from smd.formats import SourceFrame
 
 Source = Annotated[
     str,
@@ -30,10 +34,45 @@ Devices = Annotated[
         "controllers and trackers.",
     ),
 ]
-Rate = Annotated[float, typer.Option(help="Frames a second, 10 to 1000.")]
+Rate = Annotated[float, typer.Option("--rate", help="Frames a second, 10 to 1000.")]
+TakesFolder = Annotated[
+    Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
+]
+
+RATE_HZ = 90.0
+"""Of most headsets."""
+
+SOURCE = "openvr"
 
 SHOW_S = 0.25
 """From one state of the live line to the next."""
+
+
+@dataclass(frozen=True, slots=True)
+class CapturingOptions:
+    """Which devices the user records, how often, and where their poses come from."""
+
+    devices: Devices = None
+    rate_hz: Rate = RATE_HZ
+    source: Source = SOURCE
+
+    def require_rate(self) -> None:
+        """Raise CaptureError if nothing is recorded at such a rate."""
+        from smd.capture.take import require_rate
+
+        require_rate(self.rate_hz)
+
+    def opened(self, frame: SourceFrame | None = None) -> AbstractContextManager[OpenSource]:
+        """Open the source, and let go of it afterwards; ``frame``: how a replay is to be read."""
+        from smd.capture.opening import open_source
+
+        return open_source(self.source, self.rate_hz, frame)
+
+    def names_of(self, there: Sequence[Device]) -> dict[str, str]:
+        """Return the names of the devices to record, by serial; CaptureError if one is missing."""
+        from smd.capture.selection import chosen_devices
+
+        return {each.serial: each.name for each in chosen_devices(there, self.devices or ())}
 
 
 def held_takes(

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from smd.cli import reading, writing
+from smd.cli import places, score_lines
+from smd.cli.acting import ActingOptions
 from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
+from smd.cli.option_groups import unfolded
+from smd.cli.parsing import Device, ParsingOptions
+from smd.cli.reading import ReadingOptions
+from smd.cli.writing import WritingOptions
 
-if TYPE_CHECKING:
-    from smd.acting.performance import Performance
 
-
+@unfolded
 def convert(
-    recordings: reading.Recordings,
+    recordings: places.Recordings,
+    *,
     output: Annotated[
         Path,
         typer.Option("-o", "--output", help="OUT.usda, .usdc or .usdz; or a folder for several."),
@@ -24,74 +28,33 @@ def convert(
     suffix: Annotated[
         str, typer.Option("--as", help="Format of the files written into a folder.")
     ] = ".usdc",
-    library: reading.Libraries = None,
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    tolerance: reading.Tolerance = 1.0,
-    intent: reading.Intent = None,
-    unexplained: reading.Unexplained = reading.UnexplainedName.LEAVE,
-    fps: reading.FramesPerSecond = 24.0,
-    expressiveness: reading.Expressiveness = 1.0,
-    heading: reading.Heading = reading.HeadingName.PROP,
-    ground: reading.Ground = None,
-    variants: writing.Variants = False,
-    layers: writing.Layers = False,
-    phrases: writing.Phrases = False,
-    stage_up: writing.Up = writing.StageUp.Y,
-    stage_unit: writing.Unit = writing.StageUnit.M,
-    device: reading.Device = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    parsing: ParsingOptions,
+    acting: ActingOptions,
+    writing: WritingOptions,
+    device: Device = None,
+    reading: ReadingOptions,
 ) -> None:
     """Convert recordings to animations.
 
     A file in, a file out; a folder in, a folder out.
     """
-    import smd
-    from actions_library.importers.usd_ground import read_terrain
-
-    files = list(reading.recording_files(recordings))
+    files = list(places.recording_files(recordings))
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
     outputs = targets(recordings, files, output, suffix)
-    written = writing.WritingOptions(stage_up, stage_unit, layers, phrases, variants)
     for path in outputs:
-        written.check(path)
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    folders = reading.LibraryFolders.from_options(library)
-    cast = folders.load()
-    understood = reading.understanding(
-        options,
-        cast,
-        folders,
-        figure_height_m=figure_height,
-        devices=device,
-        tolerance=tolerance,
-        intent=intent,
-        unexplained=unexplained,
-    )
-    terrain = None if ground is None else read_terrain(ground)
+        writing.check(path)
+    cast = parsing.folders.load()
+    terrain = acting.terrain()
 
     def one(index: int, file: Path) -> None:
-        recording, score = understood(file)
-
-        def act(how_much: float) -> Performance:
-            return smd.animate(
-                score,
-                recording,
-                cast,
-                rate_hz=fps,
-                expressiveness=how_much,
-                heading=heading,
-                ground=terrain,
-            )
-
-        performance = written.write(score, act, expressiveness, outputs[index])
-        said = f"{outputs[index]}: {reading.summary(recording, score)}"
+        recording, score = parsing.parse(file, reading, cast, device)
+        act = acting.acts_out(score, recording, cast, terrain)
+        performance = writing.write(score, act, acting.expressiveness, outputs[index])
+        said = f"{outputs[index]}: {score_lines.summary(recording, score)}"
         typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))
-        for line in next_steps(file, recording, score, cast, options=options, tolerance=tolerance):
+        for line in next_steps(
+            file, recording, score, cast, options=reading, tolerance=parsing.tolerance
+        ):
             typer.echo(f"  {line}")
 
     for_each(files, one)

@@ -24,8 +24,7 @@ def demo(
     The pictures show what was understood.
     """
     import smd
-    from smd.cli.parse import table
-    from smd.cli.reading import summary
+    from smd.cli.score_lines import summary, table
     from smd.errors import ExportError
 
     try:

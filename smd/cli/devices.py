@@ -16,12 +16,10 @@ if TYPE_CHECKING:
 
 def devices(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
-    source: capturing.Source = "openvr",
+    source: capturing.Source = capturing.SOURCE,
 ) -> None:
     """Show headset, controllers and trackers."""
-    from smd.capture.opening import open_source
-
-    with open_source(source, 90.0) as opened:
+    with capturing.CapturingOptions(source=source).opened() as opened:
         found = opened.devices()
     if as_json:
         typer.echo(json.dumps([dataclasses.asdict(device) for device in found], indent=2))

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from smd.cli import reading
+from smd.cli import places
 from smd.cli.batch import for_each
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
     from smd.effort import ManifestRow
@@ -29,8 +31,10 @@ def _laban() -> None:
 
 
 @app.command()
+@unfolded
 def classify(
-    recordings: reading.Recordings,
+    recordings: places.Recordings,
+    *,
     model: Model = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print a JSON list and nothing else.")
@@ -42,12 +46,7 @@ def classify(
             "not be known. Efforts are then read against how this person moves. Repeatable.",
         ),
     ] = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    reading: ReadingOptions,
 ) -> None:
     """Read the Effort of recordings, movement by movement: a rest of 0.4 s parts two."""
     from laban import AXES, load_effort_model
@@ -55,16 +54,15 @@ def classify(
     from smd.effort import performers_measure, recording_efforts
 
     reader = load_effort_model(model)
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    files = list(reading.recording_files(recordings))
+    files = list(places.recording_files(recordings))
     rows: list[dict[str, Any]] = []
     own = None
     if performer:
-        takes = reading.recording_files(performer)
-        own = performers_measure(options.read(take) for take in takes)
+        takes = places.recording_files(performer)
+        own = performers_measure(reading.read(take) for take in takes)
 
     def one(_: int, file: Path) -> None:
-        for read in recording_efforts(options.read(file), reader, own):
+        for read in recording_efforts(reading.read(file), reader, own):
             device, state = read.device, read.state
             values = {axis: getattr(read.effort, axis) for axis in AXES}
             known = {axis: round(v, 3) for axis, v in values.items() if v is not None}
@@ -97,8 +95,10 @@ def classify(
 
 
 @app.command()
+@unfolded
 def train(
     output: Annotated[Path, typer.Option("-o", "--output", help="Write the model here.")],
+    *,
     manifest: Annotated[
         Path | None,
         typer.Argument(
@@ -109,12 +109,7 @@ def train(
     simulated: Annotated[
         bool, typer.Option("--simulated", help="Learn from simulated people: the shipped model.")
     ] = False,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    reading: ReadingOptions,
 ) -> None:
     """Learn to read Effort from labelled takes, or from simulated people.
 
@@ -126,12 +121,11 @@ def train(
 
     if simulated == (manifest is not None):
         raise typer.BadParameter("expected either a MANIFEST or --simulated")
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
     with replacing(output) as temporary:
         if manifest is None:
             training = train_simulated()
         else:
-            training = train_manifest(manifest, options.read, progress=_progress)
+            training = train_manifest(manifest, reading.read, progress=_progress)
         save_effort_model(training.model, temporary)
     typer.echo("\n".join(report_lines(training)))
     typer.echo(f"written: {output}")

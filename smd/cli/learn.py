@@ -2,40 +2,22 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from dataclasses import dataclass
+from typing import Annotated
 
 import typer
 
-from smd.cli import reading
-
-if TYPE_CHECKING:
-    from actions_library.library import Library
-    from smd.doodle import Doodle
-    from smd.recognition.action import Action
-    from smd.recognition.learning import LearnedPattern
-
-SHOWN_EXAMPLES = 10
-"""More examples are not listed one by one."""
-
-LONG_REST_S = 0.7
-"""A rest within a gesture that is worth asking about."""
-
-SHOWN_PATTERN = 1000
-"""Characters of a pattern that are printed; that of a hundred examples fills pages."""
-
-SHOWN_TOKENS = 8
-"""Of more optional tokens, the others are counted; the pattern has them all."""
+from smd.cli import one_doodle, parsing, places
+from smd.cli.lesson import Lesson, LessonOptions
+from smd.cli.libraries import ExtendedFolder
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import ReadingOptions
 
 
-def learn(
-    action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
-    recordings: reading.Recordings,
-    library: Annotated[
-        Path, typer.Option("--library", help="The library to extend; made where there is none.")
-    ],
+@dataclass(frozen=True, slots=True)
+class LearnOptions(LessonOptions):
+    """The same options, told at more length."""
+
     clip: Annotated[
         str | None,
         typer.Option(
@@ -43,7 +25,7 @@ def learn(
             help="Perform it with the clip of this action, of the library's or the shipped ones. "
             "Default: that of the same name, else idle.",
         ),
-    ] = None,
+    ] = None
     base: Annotated[
         str | None,
         typer.Option(
@@ -51,214 +33,29 @@ def learn(
             help="Begin a new library with all actions of this one: a folder, or `humanoid` for "
             "the shipped one. Default: with its character and idling alone.",
         ),
-    ] = None,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
-    ] = False,
+    ] = None
+
+
+@unfolded
+def learn(
+    action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
+    recordings: places.Recordings,
+    *,
+    library: ExtendedFolder,
+    learning: LearnOptions,
     description: Annotated[
         str, typer.Option(help="What the gesture looks like, in one sentence.")
     ] = "",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    device: reading.OneDevice = None,
-    up: reading.Up = None,
-    front: reading.Front = None,
-    handedness: reading.Handedness = None,
-    unit: reading.Unit = None,
-    quaternion: reading.Quaternion = None,
-    mount: reading.Mount = None,
+    figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    device: one_doodle.OneDevice = None,
+    reading: ReadingOptions,
 ) -> None:
     """Learn an action's gesture from examples.
 
     Each RECORDING is one performance of it; three to five are a good number. Extends a library,
     or makes one.
     """
-    lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
-    options = reading.ReadingOptions(up, front, handedness, unit, quaternion, mount)
-    files = list(reading.recording_files(recordings))
-    doodles = [one_example(file, options, device) for file in files]
-    typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height)))
-
-
-@dataclasses.dataclass(frozen=True, slots=True)
-class Lesson:
-    """An action to learn, and the library to learn it into, checked before anyone performs.
-
-    Attributes
-    ----------
-    action : its name.
-    folder : of the library.
-    there : whether it is there already.
-    start : the library that it extends, or that it begins with.
-    kept : names of the actions that the library will have of ``start``.
-    shelf, shown : the library and the action whose clip performs the new one.
-    clip : the name that was asked for, if one was.
-    """
-
-    action: str
-    folder: Path
-    there: bool
-    start: Library
-    kept: list[str]
-    shelf: Library
-    shown: Action
-    clip: str | None
-
-    @classmethod
-    def of(
-        cls,
-        action: str,
-        folder: Path,
-        *,
-        clip: str | None = None,
-        base: str | None = None,
-        replace: bool = False,
-    ) -> Lesson:
-        """Return the lesson that a user asks for; the options are those of ``smd learn``.
-
-        Raises
-        ------
-        LibraryError
-            If the name is no word or taken, or a library or clip is not there.
-        """
-        import smd
-        from actions_library.extension import clip_source, require_name, require_new
-        from actions_library.manifest import MANIFEST
-        from smd.errors import LibraryError
-
-        require_name(action)
-        shipped = smd.load_library()
-        there = (folder / MANIFEST).is_file()
-        if there and base is not None:
-            raise LibraryError(f"{folder}: expected no library there to begin one --from {base}")
-        if there:
-            start = smd.load_library(folder)
-        else:
-            start = shipped if base in (None, shipped.name) else smd.load_library(base)
-        kept = [known.name for known in start.actions] if there or base is not None else []
-        if action in kept and not replace:
-            require_new(start, action)
-        shelf, shown = clip_source(action, clip, (start, shipped))
-        return cls(action, folder, there, start, kept, shelf, shown, clip)
-
-    def learned(
-        self, files: list[Path], doodles: list[Doodle], description: str, figure_height_m: float
-    ) -> Iterator[str]:
-        """Learn from doodles, write the library, and yield lines on what was learned."""
-        from actions_library.extension import add_action, new_library
-
-        new, learned = _learned(self.action, files, doodles, figure_height_m)
-        before = next((a for a in self.start.actions if a.name == self.action), None)
-        before = before if self.action in self.kept else None
-        new = dataclasses.replace(
-            new,
-            travels=self.shown.travels,
-            cyclic=self.shown.cyclic,
-            description=description or (before.description if before else ""),
-            rest=before.rest if before else "",
-        )
-        report = [*_report(new, learned), *_rests(files, doodles, figure_height_m)]
-        performed = dataclasses.replace(self.shelf.clip(self.shown.name), name=self.action)
-        credit = self.shelf.credit(self.shown.name)
-        if self.there:
-            extended = add_action(self.start, new, performed, credit)
-        else:
-            extended = new_library(self.folder, self.start, self.kept, new, performed, credit)
-        yield from report
-        own = self.clip or self.shown.name == self.action
-        why = "" if own else f"; there is no clip {self.action!r}, see --clip"
-        yield f"  clip: {self.shown.name} of the library {self.shelf.name!r}{why}"
-        for line in _collisions(extended, self.action):
-            yield f"  {line}"
-        verb = "extended" if self.there else "made"
-        names = ", ".join(known.name for known in extended.actions)
-        yield f"{verb}: {self.folder}: {names}"
-
-
-def one_example(file: Path, options: reading.ReadingOptions, device: str | None) -> Doodle:
-    """Return the one doodle of a recording; an example holds the gesture once."""
-    from smd.errors import RecordingError
-
-    doodles = reading.doodles_of_one(options.read(file), device)
-    if len(doodles) > 1:
-        raise RecordingError(
-            f"{file}: expected one performance of the gesture, found {len(doodles)} doodles: "
-            f"tracking was lost from {doodles[0].time_s[-1]:.2f} to {doodles[1].time_s[0]:.2f} s"
-        )
-    return doodles[0]
-
-
-def _learned(
-    name: str, files: list[Path], doodles: list[Doodle], figure_height_m: float
-) -> tuple[Action, LearnedPattern]:
-    """Learn an action, and keep what to say of it; messages name files as the user did."""
-    from smd.recognition import learn_action
-    from smd.recognition.learning import learn_pattern
-
-    learned = learn_pattern(
-        doodles, names=[str(file) for file in files], figure_height_m=figure_height_m
-    )
-    own = [file.name for file in files]
-    return learn_action(name, doodles, names=own, figure_height_m=figure_height_m), learned
-
-
-def _report(action: Action, learned: LearnedPattern) -> Iterator[str]:
-    """Yield lines on what was learned."""
-    count = len(learned.names)
-    average = " and their average" if learned.average_sequence else ""
-    yield f"{action.name}: learned from {reading.count(count, 'example')}{average}"
-    for name, sequence, (start_s, end_s) in zip(
-        learned.names, learned.sequences, learned.spans_s, strict=True
-    ):
-        if count <= SHOWN_EXAMPLES:
-            tokens = reading.count(len(sequence), "token")
-            yield f"  {name}: {start_s:.2f} – {end_s:.2f} s, {tokens}"
-    if learned.mandatory:
-        lengths = sorted(len(sequence) for sequence in learned.sequences)
-        if count > 1:
-            of = f"{lengths[0]} to {lengths[-1]}"
-            yield f"  agree in {reading.count(len(learned.mandatory), 'token')} of {of}"
-        yield from _tokens(learned)
-    else:
-        yield "  warning: no movement is in all examples; they show several ways to draw it"
-    pattern = str(learned.pattern)
-    if len(pattern) > SHOWN_PATTERN:
-        pattern = f"{pattern[:SHOWN_PATTERN]}… and {len(pattern) - SHOWN_PATTERN} characters more"
-    yield f"  pattern: {pattern}"
-
-
-def _tokens(learned: LearnedPattern) -> Iterator[str]:
-    """Yield lines on what must occur and what may."""
-    yield "  must occur, in this order:"
-    for tokens in learned.mandatory:
-        yield f"    {' or '.join(map(str, sorted(tokens)))}"
-    needed = frozenset().union(*learned.mandatory)
-    optional = [str(token) for token in learned.pattern.tokens() if token not in needed]
-    shown = ", ".join(optional[:SHOWN_TOKENS])
-    more = f" and {len(optional) - SHOWN_TOKENS} more" if len(optional) > SHOWN_TOKENS else ""
-    yield f"  may occur as well: {shown or 'nothing else'}{more}"
-
-
-def _rests(files: list[Path], doodles: list[Doodle], figure_height_m: float) -> Iterator[str]:
-    """Yield a line on each example that pauses so long that it may be several performances."""
-    from smd.recognition.learning import doodle_runs, without_rest
-    from smd.recognition.tokens import STILL
-
-    for file, doodle in zip(files, doodles, strict=True):
-        for run in without_rest(doodle_runs(doodle, figure_height_m)):
-            if run.token == STILL and run.end_s - run.start_s >= LONG_REST_S:
-                yield (
-                    f"  warning: {file}: rests from {run.start_s:.2f} to {run.end_s:.2f} s; "
-                    "expected one performance of the gesture"
-                )
-
-
-def _collisions(library: Library, name: str) -> Iterator[str]:
-    """Yield lines on the other actions that the new one may be taken for."""
-    from smd.recognition.collisions import collisions_of
-
-    patterns = {action.name: action.pattern for action in library.actions if action.pattern}
-    found = collisions_of(name, patterns)
-    for collision in found:
-        yield f"warning: {collision}"
-    if not found and len(patterns) > 1:
-        yield "collides with no other action of the library"
+    lesson = Lesson.of(action, library, learning)
+    files = list(places.recording_files(recordings))
+    doodles = [one_doodle.one_example(file, reading, device) for file in files]
+    typer.echo("\n".join(lesson.learned(files, doodles, description, figure_height_m)))

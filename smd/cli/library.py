@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import library_making, reading
+from smd.cli import libraries, library_making, wording
 
 if TYPE_CHECKING:
     from smd.recognition.action import Action
@@ -29,7 +29,7 @@ app.command("import")(library_making.import_)
 
 @app.command("list")
 def list_(
-    library: reading.LibraryFolder = None,
+    library: libraries.LibraryFolder = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print a JSON list and nothing else.")
     ] = False,
@@ -55,13 +55,13 @@ def list_(
     for action in actions:
         drawn = action.description or ("not drawn" if action.pattern is None else "")
         typer.echo(f"{action.name:{width}}  {_manner(action):17}  {drawn}".rstrip())
-    typer.echo(f"{reading.count(len(actions), 'action')}; smd library show ACTION says more")
+    typer.echo(f"{wording.count(len(actions), 'action')}; smd library show ACTION says more")
 
 
 @app.command()
 def show(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="The action's name.")],
-    library: reading.LibraryFolder = None,
+    library: libraries.LibraryFolder = None,
     picture: Annotated[
         Path | None, typer.Option("-o", "--output", help="Draw gesture and clip: PICTURE.png")
     ] = None,
@@ -79,7 +79,7 @@ def show(
     if credit.author or credit.licence:
         typer.echo(f"    by {credit.author or 'nobody named'}, {credit.licence or 'no licence'}")
     if known.exemplar is not None:
-        examples = reading.count(len(known.exemplar), "example")
+        examples = wording.count(len(known.exemplar), "example")
         own = int(known.exemplar.own.sum())
         of_them = f", {own} of them your own" if 0 < own < len(known.exemplar) else ""
         typer.echo(f"    verified against {examples}{of_them}: {shelf.exemplar_files[action]}")
@@ -95,7 +95,7 @@ def show(
 
 
 @app.command()
-def check(library: reading.LibraryFolder = None) -> None:
+def check(library: libraries.LibraryFolder = None) -> None:
     """Read all of a library's files, and warn of gestures that are too much alike.
 
     Exit code 3 if anything is broken; warnings alone are no failure.
@@ -110,9 +110,9 @@ def check(library: reading.LibraryFolder = None) -> None:
     for line in found.faults:
         print(f"smd: {line}", file=sys.stderr)
     counts = [
-        reading.count(len(shelf.actions), "action"),
-        reading.count(len(found.faults), "fault"),
-        reading.count(len(found.warnings), "warning"),
+        wording.count(len(shelf.actions), "action"),
+        wording.count(len(found.faults), "fault"),
+        wording.count(len(found.warnings), "warning"),
     ]
     typer.echo(f"{shelf.folder}: {', '.join(counts)}")
     if found.faults:

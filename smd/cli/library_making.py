@@ -2,41 +2,106 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from smd.cli.option_groups import unfolded
+
 if TYPE_CHECKING:
     from actions_library.adoption.clip import Adopted
     from actions_library.importers import Imported
+    from actions_library.library import Credit
 
 SHOWN_NAMES = 40
 
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="The library's folder.")]
-Front = Annotated[
-    str | None,
-    typer.Option(help="Where the figure faces in the file: x, -x, z or -z, where the guess fails."),
-]
-Up = Annotated[str | None, typer.Option(help="The file's up axis: x, y, z, -x, -y or -z.")]
-UnitM = Annotated[
-    float | None, typer.Option("--unit", help="Metres per unit of the file, e.g. 0.01.")
-]
-Author = Annotated[str, typer.Option(help="Who made it; kept in library.json.")]
-Licence = Annotated[str, typer.Option(help="Under which licence; kept in library.json.")]
 
 
+@dataclass(frozen=True, slots=True)
+class ImportingOptions:
+    """How the user said that a file is to be imported, and whose it is."""
+
+    front: Annotated[
+        str | None,
+        typer.Option(
+            help="Where the figure faces in the file: x, -x, z or -z, where the guess fails."
+        ),
+    ] = None
+    up: Annotated[str | None, typer.Option(help="The file's up axis: x, y, z, -x, -y or -z.")] = (
+        None
+    )
+    unit_m: Annotated[
+        float | None, typer.Option("--unit", help="Metres per unit of the file, e.g. 0.01.")
+    ] = None
+    author: Annotated[str, typer.Option(help="Who made it; kept in library.json.")] = ""
+    licence: Annotated[str, typer.Option(help="Under which licence; kept in library.json.")] = ""
+
+    def imported(self, file: Path) -> Imported:
+        """Read a file."""
+        from actions_library.importers import import_file
+
+        return import_file(file, up=self.up, unit_m=self.unit_m)
+
+    def direction(self) -> tuple[float, float, float] | None:
+        """Return where the figure faces; LibraryError if that is no direction."""
+        from smd.errors import LibraryError
+
+        directions = {
+            "x": (1.0, 0.0, 0.0),
+            "-x": (-1.0, 0.0, 0.0),
+            "z": (0.0, 0.0, 1.0),
+            "-z": (0.0, 0.0, -1.0),
+        }
+        if self.front is None:
+            return None
+        if self.front not in directions:
+            raise LibraryError(
+                f"front: expected one of {', '.join(directions)}, got {self.front!r}"
+            )
+        return directions[self.front]
+
+    def credit(self) -> Credit:
+        """Return whose it is."""
+        from actions_library.library import Credit
+
+        return Credit(self.author, self.licence)
+
+
+@dataclass(frozen=True, slots=True)
+class ClipOptions:
+    """Which part of a file the user said that a clip is, and what it is to be."""
+
+    clip: Annotated[
+        str | None, typer.Option(help="Which of the file's animations; default: the only one.")
+    ] = None
+    travels: Annotated[
+        bool | None,
+        typer.Option("--travels/--in-place", help="Whether it moves along the doodle's path."),
+    ] = None
+    cyclic: Annotated[bool | None, typer.Option("--cyclic/--once", help="Whether it repeats.")] = (
+        None
+    )
+    start_s: Annotated[
+        float | None, typer.Option("--start", help="Begin here, in seconds.", min=0.0)
+    ] = None
+    end_s: Annotated[float | None, typer.Option("--end", help="End here, in seconds.", min=0.0)] = (
+        None
+    )
+    description: Annotated[str, typer.Option(help="What the gesture of the prop will be.")] = ""
+
+
+@unfolded
 def new(
     folder: Folder,
+    *,
     character: Annotated[
         Path,
         typer.Option(metavar="FILE", help="A glTF, GLB or USD file with a skinned character."),
     ],
-    front: Front = None,
-    up: Up = None,
-    unit: UnitM = None,
-    author: Author = "",
-    licence: Licence = "",
+    importing: ImportingOptions,
 ) -> None:
     """Make a library of a character of one's own.
 
@@ -44,19 +109,17 @@ def new(
     """
     from actions_library.adoption.character import plan_of
     from actions_library.adoption.library import library_from
-    from actions_library.importers import import_file
-    from actions_library.library import Credit
 
-    imported = import_file(character, up=up, unit_m=unit)
+    imported = importing.imported(character)
     library, idling = library_from(
-        folder, imported, front=_direction(front), credit=Credit(author, licence)
+        folder, imported, front=importing.direction(), credit=importing.credit()
     )
     figure = library.character
     typer.echo(
         f"{library.folder}: {figure.height_m:.2f} m tall, {len(figure.skeleton)} joints, "
         f"{len(figure.meshes)} meshes"
     )
-    typer.echo("\n".join(_plan_lines(imported, plan_of(imported, front=_direction(front)))))
+    typer.echo("\n".join(_plan_lines(imported, plan_of(imported, front=importing.direction()))))
     typer.echo(f"  idles with: {idling or 'its rest pose, since no animation is called idle'}")
     names = [a.name for a in imported.animations]
     more = f" and {len(names) - SHOWN_NAMES} more" if len(names) > SHOWN_NAMES else ""
@@ -65,30 +128,16 @@ def new(
         typer.echo(f"  note: {note}")
 
 
+@unfolded
 def import_(
     folder: Folder,
+    *,
     file: Annotated[
         Path, typer.Argument(metavar="FILE", help="A BVH, glTF, GLB or USD file with the clip.")
     ],
     action: Annotated[str, typer.Option(help="The action that the clip shows.")],
-    clip: Annotated[
-        str | None, typer.Option(help="Which of the file's animations; default: the only one.")
-    ] = None,
-    travels: Annotated[
-        bool | None,
-        typer.Option("--travels/--in-place", help="Whether it moves along the doodle's path."),
-    ] = None,
-    cyclic: Annotated[
-        bool | None, typer.Option("--cyclic/--once", help="Whether it repeats.")
-    ] = None,
-    start: Annotated[float | None, typer.Option(help="Begin here, in seconds.", min=0.0)] = None,
-    end: Annotated[float | None, typer.Option(help="End here, in seconds.", min=0.0)] = None,
-    description: Annotated[str, typer.Option(help="What the gesture of the prop will be.")] = "",
-    front: Front = None,
-    up: Up = None,
-    unit: UnitM = None,
-    author: Author = "",
-    licence: Licence = "",
+    clip: ClipOptions,
+    importing: ImportingOptions,
     replace: Annotated[
         bool, typer.Option("--replace", help="Take the place of the action's present clip.")
     ] = False,
@@ -100,8 +149,6 @@ def import_(
     """
     import smd
     from actions_library.adoption.library import import_clip
-    from actions_library.importers import import_file
-    from actions_library.library import Credit
     from smd.cast import IDLE
     from smd.errors import LibraryError
 
@@ -111,41 +158,24 @@ def import_(
         raise LibraryError(
             f"{folder}: action {action!r} is there already: expected another name, or --replace"
         )
-    imported = import_file(file, up=up, unit_m=unit)
-    part = imported.part(imported.animation(clip), start, end)
+    imported = importing.imported(file)
+    part = imported.part(imported.animation(clip.clip), clip.start_s, clip.end_s)
     library, adopted = import_clip(
         library,
         imported,
         part,
         action,
-        travels=travels,
-        cyclic=cyclic,
-        front=_direction(front),
-        description=description,
-        credit=Credit(author, licence),
+        travels=clip.travels,
+        cyclic=clip.cyclic,
+        front=importing.direction(),
+        description=clip.description,
+        credit=importing.credit(),
     )
     typer.echo("\n".join(_clip_lines(adopted, part.name)))
     for note in imported.notes:
         typer.echo(f"  note: {note}")
     if action != IDLE and library.action(action).pattern is None:
         typer.echo(f"  no gesture yet: smd learn {action} RECORDING… --library {folder}")
-
-
-def _direction(front: str | None) -> tuple[float, float, float] | None:
-    """Return the direction that a user named."""
-    from smd.errors import LibraryError
-
-    directions = {
-        "x": (1.0, 0.0, 0.0),
-        "-x": (-1.0, 0.0, 0.0),
-        "z": (0.0, 0.0, 1.0),
-        "-z": (0.0, 0.0, -1.0),
-    }
-    if front is None:
-        return None
-    if front not in directions:
-        raise LibraryError(f"front: expected one of {', '.join(directions)}, got {front!r}")
-    return directions[front]
 
 
 def _plan_lines(imported: Imported, plan: object) -> list[str]:

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, reading
+from smd.cli.capturing import CapturingOptions
+from smd.cli.libraries import LibraryFolder
+from smd.cli.option_groups import unfolded
+from smd.cli.stories import StoryOptions
 
 if TYPE_CHECKING:
     from smd.capture.beside import Beside
@@ -18,7 +21,9 @@ if TYPE_CHECKING:
     from smd.capture.source import Frame, Source
 
 
+@unfolded
 def play(
+    *,
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder of the stories; made where missing.")
     ] = Path("stories"),
@@ -26,14 +31,9 @@ def play(
     picture: Annotated[
         bool, typer.Option("--picture", help="Draw a timeline of each story as well.")
     ] = False,
-    library: reading.LibraryFolder = None,
-    device: capturing.Devices = None,
-    rate: capturing.Rate = 90.0,
-    source: capturing.Source = "openvr",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    tolerance: reading.Tolerance = 1.0,
-    fps: reading.FramesPerSecond = 24.0,
-    mount: reading.Mount = None,
+    library: LibraryFolder = None,
+    capturing: CapturingOptions,
+    story: StoryOptions,
 ) -> None:
     """Play stories: hold the trigger and draw.
 
@@ -44,29 +44,24 @@ def play(
     from exporters import require_known_suffix
     from smd.capture.beside import Beside
     from smd.capture.hand import grips, stretches
-    from smd.capture.opening import open_source
-    from smd.capture.selection import chosen_devices, require_trigger
+    from smd.capture.selection import require_trigger
     from smd.capture.shelf import Shelf
-    from smd.capture.take import require_rate
     from smd.cli.understanding import Understanding
-    from smd.formats import Mount
 
-    require_rate(rate)
+    capturing.require_rate()
     suffix = suffix if suffix.startswith(".") else f".{suffix}"
     require_known_suffix(Path(f"story{suffix}"))
     understanding = Understanding(
         folder=library,
         suffix=suffix,
         picture=picture,
-        figure_height_m=figure_height,
-        tolerance=tolerance,
-        fps=fps,
-        mount=None if mount is None else Mount.parse(mount),
+        story=story,
+        mount=story.mounted(),
     )
-    with Beside(understanding.begun) as beside, open_source(source, rate) as opened:
+    with Beside(understanding.begun) as beside, capturing.opened() as opened:
         there = opened.devices()
         require_trigger(there)
-        names = {each.serial: each.name for each in chosen_devices(there, device or ())}
+        names = capturing.names_of(there)
         stories = Shelf(output, "story")
         typer.echo(f"{', '.join(names.values())}: hold the trigger and draw; Ctrl-C ends")
         sys.stdout.flush()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing
+from smd.cli.capturing import RATE_HZ, SOURCE, CapturingOptions, Devices, LiveLine, Rate, Source
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,8 +19,8 @@ def record(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="TAKE", help="The recording: TAKE.csv.")
     ],
-    device: capturing.Devices = None,
-    rate: capturing.Rate = 90.0,
+    devices: Devices = None,
+    rate_hz: Rate = RATE_HZ,
     seconds: Annotated[
         float | None, typer.Option(help="Length of the take. Default: until Ctrl-C.")
     ] = None,
@@ -31,24 +31,23 @@ def record(
     force: Annotated[
         bool, typer.Option("--force", help="Write over a recording that is there.")
     ] = False,
-    source: capturing.Source = "openvr",
+    source: Source = SOURCE,  # last in the help, and so apart from what it belongs to
 ) -> None:
     """Record tracked devices until Ctrl-C.
 
     Every sample is in the file as soon as it is there; nothing is lost if the program or the
     computer dies.
     """
-    from smd.capture.opening import open_source
     from smd.capture.recorder import Recorder
-    from smd.capture.selection import chosen_devices
-    from smd.capture.take import Progress, record, require_rate, require_seconds
+    from smd.capture.take import Progress, record, require_seconds
 
-    require_rate(rate)
+    capturing = CapturingOptions(devices, rate_hz, source)
+    capturing.require_rate()
     length_s = require_seconds(seconds)
     progress = Progress()
-    with open_source(source, rate) as opened:
-        names = {each.serial: each.name for each in chosen_devices(opened.devices(), device or ())}
-        live = capturing.LiveLine(names)
+    with capturing.opened() as opened:
+        names = capturing.names_of(opened.devices())
+        live = LiveLine(names)
         with Recorder(output, names, force=force) as recorder:
             try:
                 for serial in names:
@@ -68,7 +67,7 @@ def record(
 
 def _summary(output: Path, names: Iterable[str], progress: Progress) -> str:
     """Return in one line what is in the file now."""
-    from smd.cli.reading import count
+    from smd.cli.wording import count
 
     return (
         f"{output}: {progress.time_s:.1f} s of {', '.join(names)}, "

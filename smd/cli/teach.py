@@ -7,62 +7,51 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli import capturing, reading
+from smd.cli import one_doodle, parsing
+from smd.cli.capturing import CapturingOptions, TakesFolder, held_takes
+from smd.cli.lesson import Lesson, LessonOptions
+from smd.cli.libraries import ExtendedFolder
+from smd.cli.option_groups import unfolded
+from smd.cli.reading import Mount, ReadingOptions
 
 if TYPE_CHECKING:
     from smd.doodle import Doodle
 
 
+@unfolded
 def teach(
     action: Annotated[str, typer.Argument(metavar="ACTION", help="A lower-case word.")],
-    library: Annotated[
-        Path, typer.Option("--library", help="The library to extend; made where there is none.")
-    ],
-    output: Annotated[
-        Path, typer.Option("-o", "--output", help="Folder of the takes; made where missing.")
-    ] = Path("lessons"),
+    library: ExtendedFolder,
+    *,
+    output: TakesFolder = Path("lessons"),
     performances: Annotated[
         int, typer.Option(help="How often the gesture is drawn.", min=1, max=20)
     ] = 3,
-    clip: Annotated[
-        str | None, typer.Option("--clip", help="Perform it with the clip of this action.")
-    ] = None,
-    base: Annotated[
-        str | None,
-        typer.Option("--from", help="Begin a new library with all actions of this one."),
-    ] = None,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Learn an action anew that the library has.")
-    ] = False,
-    device: capturing.Devices = None,
-    rate: capturing.Rate = 90.0,
-    source: capturing.Source = "openvr",
-    figure_height: reading.FigureHeight = reading.FIGURE_HEIGHT_M,
-    mount: reading.Mount = None,
+    learning: LessonOptions,
+    capturing: CapturingOptions,
+    figure_height_m: parsing.FigureHeight = parsing.FIGURE_HEIGHT_M,
+    mount: Mount = None,
 ) -> None:
     """Teach an action by three performances.
 
     Hold the trigger during each. The grip discards the last one; their recordings are kept.
     """
-    from smd.capture.opening import open_source
-    from smd.capture.selection import chosen_devices, require_trigger
+    from smd.capture.selection import require_trigger
     from smd.capture.shelf import Shelf
-    from smd.capture.take import require_rate
-    from smd.cli.learn import Lesson
     from smd.errors import CaptureError, SmdError
-    from smd.formats import Mount
+    from smd.formats import Mount as ParsedMount
 
-    require_rate(rate)
-    lesson = Lesson.of(action, library, clip=clip, base=base, replace=replace)
-    options = reading.ReadingOptions(mount=None if mount is None else str(Mount.parse(mount)))
+    capturing.require_rate()
+    lesson = Lesson.of(action, library, learning)
+    options = ReadingOptions(mount=None if mount is None else str(ParsedMount.parse(mount)))
     taken: list[tuple[Path, Doodle]] = []
-    with open_source(source, rate) as opened:
+    with capturing.opened() as opened:
         there = opened.devices()
         require_trigger(there)
-        names = {each.serial: each.name for each in chosen_devices(there, device or ())}
+        names = capturing.names_of(there)
         shelf = Shelf(output, action)
         typer.echo(_asked(action, 1, performances))
-        for path in capturing.held_takes(opened, names, lambda: shelf.next().with_suffix(".csv")):
+        for path in held_takes(opened, names, lambda: shelf.next().with_suffix(".csv")):
             if path is None:
                 if taken:
                     last, _doodle = taken.pop()
@@ -70,8 +59,8 @@ def teach(
                     typer.echo(f"  {last.name}: discarded")
                 continue
             try:
-                doodle = drawn_doodle(path, options)
-                typer.echo(_told(path, doodle, figure_height))
+                doodle = one_doodle.drawn_doodle(path, options)
+                typer.echo(_told(path, doodle, figure_height_m))
                 taken.append((path, doodle))
             except SmdError as error:
                 typer.echo(f"  not counted: {error}")
@@ -84,27 +73,12 @@ def teach(
             "perform it again, or ask for fewer with --performances"
         )
     files, doodles = ([one[i] for one in taken] for i in (0, 1))
-    typer.echo("\n".join(lesson.learned(files, doodles, "", figure_height)))  # type: ignore[arg-type]
+    typer.echo("\n".join(lesson.learned(files, doodles, "", figure_height_m)))  # type: ignore[arg-type]
 
 
 def _asked(action: str, number: int, of: int) -> str:
     """Return what the user is asked for."""
     return f"{number} of {of}: hold the trigger, draw {action}, let go"
-
-
-def drawn_doodle(path: Path, options: reading.ReadingOptions) -> Doodle:
-    """Return the one doodle of a performance: that of the device whose trigger was held."""
-    from smd.errors import RecordingError
-
-    doodles = options.read(path).doodles
-    drawn = [one for one in doodles if one.drawing is not None and one.drawing.any()]
-    if len(drawn) != 1:
-        devices = ", ".join(dict.fromkeys(doodle.device for doodle in drawn)) or "none"
-        raise RecordingError(
-            f"{path}: expected one doodle of one device, found {len(drawn)} of {devices}: "
-            "name one with --device, and keep it in sight"
-        )
-    return drawn[0]
 
 
 def _told(path: Path, doodle: Doodle, figure_height_m: float) -> str:

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from smd.cli import reading
+from smd.cli import places, score_lines
 from smd.cli.next_steps import LIVE, next_steps
+from smd.cli.parsing import ParsingOptions
+from smd.cli.reading import ReadingOptions
 
 if TYPE_CHECKING:
     from actions_library.library import Library
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from smd.capture.live import Decided, LiveRecognition
     from smd.capture.shelf import Shelf
     from smd.capture.source import Row
+    from smd.cli.stories import StoryOptions
     from smd.formats import Mount
     from smd.recognition import Recognizer
 
@@ -31,17 +34,14 @@ class Understanding:
     folder : of the library; None for the shipped one.
     suffix : format of the animations.
     picture : whether a timeline of each story is drawn.
-    figure_height_m, tolerance : as in `smd.parse`.
-    fps : of the animations.
-    mount : how the prop sits on its tracker.
+    story : what the user said of each.
+    mount : how the prop sits on its tracker, as ``story`` says it.
     """
 
     folder: Path | None
     suffix: str
     picture: bool
-    figure_height_m: float
-    tolerance: float
-    fps: float
+    story: StoryOptions
     mount: Mount | None
 
     def begun(self) -> Understander:
@@ -52,7 +52,7 @@ class Understanding:
 
         library = smd.load_library(self.folder)
         recognizer = recognizer_of(
-            library, figure_height_m=self.figure_height_m, tolerance=self.tolerance
+            library, figure_height_m=self.story.figure_height_m, tolerance=self.story.tolerance
         )
         return Understander(self, library, recognizer, load_effort_model())
 
@@ -112,23 +112,20 @@ class Understander:
 
     def _act_out(self, take: Path, devices: list[str]) -> None:
         import smd
-        from smd.cli.parse import table
+        from smd.cli.score_lines import table
         from smd.score_file import write_score
 
         how = self._how
-        options = reading.ReadingOptions(mount=None if how.mount is None else str(how.mount))
-        understood = reading.understanding(
-            options,
-            self._library,
-            reading.LibraryFolders(how.folder),
-            figure_height_m=how.figure_height_m,
-            devices=devices,
-            tolerance=how.tolerance,
+        options = ReadingOptions(mount=None if how.mount is None else str(how.mount))
+        parsing = ParsingOptions(
+            library=None if how.folder is None else [str(how.folder)],
+            figure_height_m=how.story.figure_height_m,
+            tolerance=how.story.tolerance,
         )
-        recording, score = understood(take.with_suffix(".csv"))
-        score_file = take.with_suffix(reading.SCORE_SUFFIX)
-        write_score(reading.beside(score, score_file), score_file)
-        _say(f"{take.with_suffix(how.suffix)}: {reading.summary(recording, score)}")
+        recording, score = parsing.parse(take.with_suffix(".csv"), options, self._library, devices)
+        score_file = take.with_suffix(places.SCORE_SUFFIX)
+        write_score(places.beside(score, score_file), score_file)
+        _say(f"{take.with_suffix(how.suffix)}: {score_lines.summary(recording, score)}")
         for line in table(score, others=SHOWN_OTHERS):
             _say(line)
         for line in next_steps(
@@ -137,7 +134,7 @@ class Understander:
             score,
             smd.Cast(self._library),
             options=options,
-            tolerance=how.tolerance,
+            tolerance=how.story.tolerance,
             only=LIVE,
         ):
             _say(f"  {line}")
@@ -145,13 +142,13 @@ class Understander:
             from exporters.timeline import write_timeline
 
             write_timeline(recording, score, take.with_suffix(".timeline.png"))
-        performance = smd.animate(score, recording, self._library, rate_hz=how.fps)
+        performance = smd.animate(score, recording, self._library, rate_hz=how.story.fps)
         smd.write(performance, take.with_suffix(how.suffix))
 
 
 def _print(decided: list[Decided]) -> None:
     """Print phrases as they are decided."""
-    from smd.cli.parse import row
+    from smd.cli.score_lines import row
 
     for device, span, effort in decided:
         line = row(span.start_s, span.end_s, span.action, span.confidence, effort)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from smd.cli.reading import PHRASES_SUFFIX
+from smd.cli.places import PHRASES_SUFFIX
 
 if TYPE_CHECKING:
     from smd.acting.performance import Performance
@@ -34,41 +34,34 @@ class StageUnit(StrEnum):
     CM = "cm"
 
 
-Up = Annotated[
-    StageUp, typer.Option("--stage-up", help="Up axis of the animation written: y or z.")
-]
-Unit = Annotated[
-    StageUnit, typer.Option("--stage-unit", help="Unit of the animation written: m or cm.")
-]
-Layers = Annotated[
-    bool,
-    typer.Option(
-        "--layers",
-        help="Each performer in a file of its own, OUT.<device>.usdc, referenced by OUT.",
-    ),
-]
-Phrases = Annotated[
-    bool,
-    typer.Option("--phrases", help="Also write the phrases as a table, OUT.phrases.csv."),
-]
-Variants = Annotated[
-    bool,
-    typer.Option(
-        "--variants",
-        help="Also act it out without Effort: a variant set 'expression' on each character.",
-    ),
-]
-
-
 @dataclass(frozen=True, slots=True)
 class WritingOptions:
     """How the user said that an animation is to be written."""
 
-    up: StageUp = StageUp.Y
-    unit: StageUnit = StageUnit.M
-    layers: bool = False
-    phrases: bool = False
-    variants: bool = False
+    variants: Annotated[
+        bool,
+        typer.Option(
+            "--variants",
+            help="Also act it out without Effort: a variant set 'expression' on each character.",
+        ),
+    ] = False
+    layers: Annotated[
+        bool,
+        typer.Option(
+            "--layers",
+            help="Each performer in a file of its own, OUT.<device>.usdc, referenced by OUT.",
+        ),
+    ] = False
+    phrases: Annotated[
+        bool,
+        typer.Option("--phrases", help="Also write the phrases as a table, OUT.phrases.csv."),
+    ] = False
+    stage_up: Annotated[StageUp, typer.Option(help="Up axis of the animation written: y or z.")] = (
+        StageUp.Y
+    )
+    stage_unit: Annotated[
+        StageUnit, typer.Option(help="Unit of the animation written: m or cm.")
+    ] = StageUnit.M
 
     def check(self, path: Path) -> None:
         """Raise ExportError if no animation can be written so under this name."""
@@ -88,8 +81,8 @@ class WritingOptions:
         return {
             "--layers": self.layers,
             "--variants": self.variants,
-            "--stage-up": self.up is not StageUp.Y,
-            "--stage-unit": self.unit is not StageUnit.M,
+            "--stage-up": self.stage_up is not StageUp.Y,
+            "--stage-unit": self.stage_unit is not StageUnit.M,
         }
 
     def write(
@@ -123,7 +116,7 @@ class WritingOptions:
         from exporters.usd import usd_file, usd_layers
 
         plan = usd_layers if self.layers else usd_file
-        frame = StageFrame.named(self.up, self.unit)
+        frame = StageFrame.named(self.stage_up, self.stage_unit)
         return plan(performance, path, neutral=neutral, frame=frame)
 
 

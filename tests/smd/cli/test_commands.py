@@ -73,7 +73,7 @@ def test_demo_makes_what_it_says(run_smd, tmp_path):
 
 
 def test_the_command_lines_figure_height_is_the_librarys():
-    from smd.cli.reading import FIGURE_HEIGHT_M
+    from smd.cli.parsing import FIGURE_HEIGHT_M
     from smd.doodle import DEFAULT_FIGURE_HEIGHT_M
 
     assert FIGURE_HEIGHT_M == DEFAULT_FIGURE_HEIGHT_M

@@ -9,7 +9,7 @@ from pxr import Usd, UsdGeom
 
 import exporters
 from laban import Effort
-from smd.cli.reading import recording_files
+from smd.cli.places import recording_files
 from smd.score_file import read_score, write_score
 from tests.smd.cli.test_bad_input import expect_one_line
 
