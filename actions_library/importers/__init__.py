@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from actions_library.importers.imported import Animation, Imported, fault
+from actions_library.importers.imported import Animation, Imported
+from laban.faults import Fault, naming
+from smd.errors import CharacterError, ImportedFileError
 
 __all__ = ["SUFFIXES", "Animation", "Imported", "import_file"]
 
@@ -39,11 +41,20 @@ def import_file(
         If the file is missing, of another format, damaged, or holds no skeleton.
     """
     path = Path(path)
+    try:
+        with naming(path, ImportedFileError):
+            return _read(path, up, unit_m, skeleton)
+    except CharacterError as error:
+        raise ImportedFileError(f"{path}: {error}") from error
+
+
+def _read(path: Path, up: str | None, unit_m: float | None, skeleton: str | None) -> Imported:
+    """Read a file by the importer of its suffix; a fault does not name the file."""
     if not path.is_file():
-        raise fault(path, "", "a file", "none")
+        raise Fault("", "a file", "none")
     suffix = path.suffix.lower()
     if skeleton is not None and not suffix.startswith(".usd"):
-        raise fault(path, "skeleton", "a USD file to choose one from", suffix or "no suffix")
+        raise Fault("skeleton", "a USD file to choose one from", suffix or "no suffix")
     if suffix == ".bvh":
         from actions_library.importers import bvh
 
@@ -56,4 +67,4 @@ def import_file(
         from actions_library.importers import usd
 
         return usd.read(path, up=up, unit_m=unit_m, skeleton=skeleton)
-    raise fault(path, "", f"a file of {', '.join(SUFFIXES)}", suffix or "no suffix")
+    raise Fault("", f"a file of {', '.join(SUFFIXES)}", suffix or "no suffix")
