@@ -5,62 +5,62 @@ from __future__ import annotations
 import codecs
 from pathlib import Path
 
-from smd.formats.tracks import fault
+from laban.faults import Fault
 
 
-def require_file(path: Path, name: str) -> None:
+def require_file(path: Path) -> None:
     """Raise unless there is a regular file at ``path``.
 
     Raises
     ------
-    RecordingError
+    Fault
         If there is nothing, a folder, or a device.
     """
     try:
         if path.is_dir():
-            raise fault(name, "", "a recording", "a folder")
+            raise Fault("", "a recording", "a folder")
         if not path.exists():
-            raise fault(name, "", "a recording", "no such file")
+            raise Fault("", "a recording", "no such file")
     except OSError as error:  # a name too long, a folder that may not be entered
-        raise fault(name, "", "a file that can be read", str(error.strerror)) from error
+        raise Fault("", "a file that can be read", str(error.strerror)) from error
     if not path.is_file():
-        raise fault(name, "", "a recording", "no regular file")
+        raise Fault("", "a recording", "no regular file")
 
 
-def read_bytes(path: Path, name: str) -> bytes:
+def read_bytes(path: Path) -> bytes:
     """Return a file's content.
 
     Raises
     ------
-    RecordingError
+    Fault
         If the file cannot be read.
     """
     try:
         return path.read_bytes()
     except OSError as error:
-        raise fault(name, "", "a file that can be read", str(error.strerror)) from error
+        raise Fault("", "a file that can be read", str(error.strerror)) from error
 
 
-def read_text(path: Path, name: str) -> str:
+def read_text(path: Path) -> str:
     r"""Return a UTF-8 file's text, its line ends as ``\n`` and a byte order mark left out.
 
     Raises
     ------
-    RecordingError
+    Fault
         If the file cannot be read, or is not UTF-8 text.
     """
-    data = read_bytes(path, name)
+    data = read_bytes(path)
     if _is_utf16(data):
-        raise fault(name, "", "text in UTF-8", "UTF-16; save it again as UTF-8")
+        raise Fault("", "text in UTF-8", "UTF-16; save it again as UTF-8")
     data = data.rstrip(b"\0")  # what a power cut may leave at the end of a file that grew
     if b"\0" in data:
-        raise fault(name, "", "text", "binary data")
+        raise Fault("", "text", "binary data")
     try:
         text = data.removeprefix(codecs.BOM_UTF8).decode("utf-8")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         found = f"byte 0x{data[error.start]:02x}; save it again as UTF-8"
-        raise fault(name, f"line {line}", "text in UTF-8", found) from None
+        raise Fault(f"line {line}", "text in UTF-8", found) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

@@ -29,16 +29,16 @@ def matches(head: str) -> bool:
         return False
 
 
-def read(text: str, name: str) -> Content:
+def read(text: str) -> Content:
     """Return the one track of a TUM trajectory.
 
     Raises
     ------
-    RecordingError
+    Fault
         If a row does not hold eight numbers.
     """
     lines = text.split("\n")
-    values = read_table(name, lines, 0, None, COLUMNS, {})
+    values = read_table(lines, 0, None, COLUMNS, {})
     track = Track(
         device=ONLY_DEVICE,
         time_s=values[:, 0],
