@@ -18,6 +18,8 @@ from typing import Any
 import numpy as np
 
 from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.tracks import Content, Track, shown
 from smd.geometry.arrays import FloatArray
@@ -33,7 +35,7 @@ def matches(head: str) -> bool:
     return head.lstrip().startswith(("{", "["))
 
 
-def read(text: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return a track for every device that has poses; the one named ``camera`` is the headset.
 
     Raises
@@ -42,7 +44,7 @@ def read(text: str) -> Content:
         If the text is not JSON, no device has poses, or a pose lacks a number.
     """
     try:
-        whole = json.loads(text)
+        whole = json.loads(file.text)
     except RecursionError:
         raise Fault("", "devices with poses", "JSON nested too deeply") from None
     except json.JSONDecodeError as error:
@@ -110,3 +112,6 @@ def _numbers(device: str, poses: Any) -> FloatArray:
     if infinite.any():  # here, since an infinite angle would pass for one that is lost
         raise Fault(_place(device, int(np.argmax(infinite))), "finite numbers", "inf")
     return numbers
+
+
+FORMAT = Format("A-Frame motion capture", (".json",), read, matches)

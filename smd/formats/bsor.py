@@ -14,13 +14,13 @@ from __future__ import annotations
 
 import struct
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import Mount, SourceFrame
-from smd.formats.text import read_bytes
 from smd.formats.tracks import Content, Track
 
 FRAME = SourceFrame("y", "z", "left", "m", "xyzw", Mount())
@@ -35,7 +35,7 @@ _KEPT = {8: "controller", 7: "hmd", 10: "song"}
 """Which of the first thirteen texts are kept as metadata."""
 
 
-def read(path: Path) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return the tracks of head, left and right.
 
     Raises
@@ -43,7 +43,7 @@ def read(path: Path) -> Content:
     Fault
         If the file is none of this kind and version, or ends too early.
     """
-    cursor = _Cursor(read_bytes(path))
+    cursor = _Cursor(file.read_bytes())
     magic, version = cursor.numbers("<iB")
     if magic != MAGIC:
         raise Fault("", f"the magic number {MAGIC:#x}", f"{magic & 0xFFFFFFFF:#x}")
@@ -110,3 +110,6 @@ class _Cursor:
         if found != number:
             place = f"byte {self._at - 1}"
             raise Fault(place, f"the start of section {number}", f"{found}")
+
+
+FORMAT = Format("Beat Saber Open Replay", (".bsor",), read)

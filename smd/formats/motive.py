@@ -27,6 +27,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.table import Encoder, cells, line_of_row, read_table
 from smd.formats.tracks import Content, Track, shown
@@ -51,7 +53,7 @@ def matches(head: str) -> bool:
     return head.startswith("Format Version,")
 
 
-def read(text: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return a track for every rigid body.
 
     Raises
@@ -60,7 +62,7 @@ def read(text: str) -> Content:
         If rotations are no quaternions, the unit is unknown, the columns are not as described, or
         there is no rigid body.
     """
-    lines = text.split("\n")
+    lines = file.text.split("\n")
     said = cells(lines[0], ",")
     settings = dict(zip(said[0::2], said[1::2], strict=False))
     frame = _frame(settings)
@@ -125,3 +127,6 @@ def _nothing(cell: str) -> float:
     """Pass over a cell that is not ours."""
     del cell
     return 0.0
+
+
+FORMAT = Format("OptiTrack Motive", (".csv",), read, matches)

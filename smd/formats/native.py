@@ -26,6 +26,8 @@ from laban.faults import Fault
 from smd.doodle import Doodle, Recording
 from smd.errors import RecordingError
 from smd.files import replacing
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import SourceFrame
 from smd.formats.table import Encoder, cells, is_row, line_of_row, number, read_table
 from smd.formats.tracks import Content, Track, shown
@@ -52,7 +54,7 @@ def matches(head: str) -> bool:
     return "," in row and not row.lstrip().startswith(("{", "["))
 
 
-def read(text: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return the tracks of a CSV.
 
     Raises
@@ -60,7 +62,7 @@ def read(text: str) -> Content:
     Fault
         If columns are missing, or a row or cell is not what its column says.
     """
-    lines = text.split("\n")
+    lines = file.text.split("\n")
     head = next(i for i, line in enumerate(lines) if is_row(line))
     metadata = _metadata(lines[:head])
     if metadata.pop(GROWS, None):
@@ -260,3 +262,6 @@ def _writable_device(device: str) -> str:
     if device != " ".join(device.split()) or not device:
         raise RecordingError(f"device: expected a name on one line, found {device!r}")
     return device
+
+
+FORMAT = Format("native CSV", (".csv",), read, matches)

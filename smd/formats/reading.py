@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 
@@ -14,27 +13,28 @@ from smd.errors import RecordingError
 from smd.formats import aframe, bsor, motive, native, tum, usd_xform
 from smd.formats.checks import LATEST_S, checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import Conversion, SourceFrame
-from smd.formats.text import read_text, require_file
 from smd.formats.tracks import Content, Track, shown
 from smd.geometry.arrays import BoolArray, IntArray
 from smd.geometry.rotations import normalized
 
-FORMATS = (aframe, motive, native, tum)
-"""Asked in this order whether a text is theirs."""
+FORMATS: tuple[Format, ...] = (
+    motive.FORMAT,
+    native.FORMAT,
+    aframe.FORMAT,
+    tum.FORMAT,
+    bsor.FORMAT,
+    usd_xform.FORMAT,
+)
+"""Asked in this order whether a text is theirs: a Motive export would pass for a plain CSV."""
 
-BINARY: dict[str, Callable[[Path], Content]] = {
-    ".bsor": bsor.read,
-    **dict.fromkeys(usd_xform.SUFFIXES, usd_xform.read),
-}
-"""Formats that are no text of their own are known by their suffix."""
-
-SUFFIXES = (".csv", ".json", ".tum", ".bsor")
+SUFFIXES = tuple(dict.fromkeys(suffix for each in FORMATS for suffix in each.suffixes))
 """Suffixes of recordings: what a folder is searched for."""
 
-READABLE = (*SUFFIXES, ".txt", *usd_xform.SUFFIXES)
-"""Suffixes that are read when a file is named: text may be a table of poses, or prose, and USD a
-recording, or an animation that was made of one."""
+READABLE = tuple(dict.fromkeys([*SUFFIXES, *(s for each in FORMATS for s in each.only_named)]))
+"""Suffixes that are read when a file is named."""
 
 _HEAD = 65_536  # characters by which formats know their files
 
@@ -117,12 +117,27 @@ def _recording(content: Content, source: str, asked: SourceFrame, device: str | 
 
 def _opened(path: Path) -> Content:
     """Return what is in a file, in its own numbers."""
-    require_file(path)
-    if path.suffix.lower() not in READABLE:
+    file = RecordingFile(path)
+    if file.suffix not in READABLE:
         suffix = repr(path.suffix) if path.suffix else "no suffix"
         raise Fault("", f"a file with suffix {' '.join(READABLE)}", suffix)
-    in_binary = BINARY.get(path.suffix.lower())
-    return in_binary(path) if in_binary else _content(read_text(path))
+    return _format_of(file).read(file)
+
+
+def _format_of(file: RecordingFile) -> Format:
+    """Return the format that is the suffix's own, or that knows the text."""
+    for each in FORMATS:
+        if each.matches is None and file.suffix in (*each.suffixes, *each.only_named):
+            return each
+    head = file.text[:_HEAD]
+    for each in FORMATS:
+        if each.matches is not None and each.matches(head):
+            return each
+    start = next((line for line in file.text.split("\n") if line.strip()), None)
+    if start is None:
+        raise Fault("", "rows of poses", "an empty file")
+    expected = "a CSV or TUM table of poses, or A-Frame JSON"
+    raise Fault("", expected, f"text that begins {shown(start)}")
 
 
 def _never_tracked(track: Track, valid: BoolArray) -> Fault:
@@ -133,19 +148,6 @@ def _never_tracked(track: Track, valid: BoolArray) -> Fault:
         return Fault(device, "at least two poses that are numbers", found)
     expected = f"a stretch of at least {SHORTEST_LOSS_S:g} s without loss of tracking"
     return Fault(device, expected, "none")
-
-
-def _content(text: str) -> Content:
-    """Return what the format that knows this text reads from it."""
-    for reader in FORMATS:
-        if reader.matches(text[:_HEAD]):
-            return reader.read(text)
-    if not text.strip():
-        raise Fault("", "rows of poses", "an empty file")
-    start = next((line for line in text.split("\n") if line.strip()), "")
-    raise Fault(
-        "", "a CSV or TUM table of poses, or A-Frame JSON", f"text that begins {shown(start)}"
-    )
 
 
 def _chosen(tracks: tuple[Track, ...], device: str | None) -> tuple[Track, ...]:

@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from functools import partial
 
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import SourceFrame
 from smd.formats.native import ONLY_DEVICE
 from smd.formats.table import cells, is_row, line_of_row, number, read_table
@@ -29,7 +31,7 @@ def matches(head: str) -> bool:
         return False
 
 
-def read(text: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return the one track of a TUM trajectory.
 
     Raises
@@ -37,7 +39,7 @@ def read(text: str) -> Content:
     Fault
         If a row does not hold eight numbers.
     """
-    lines = text.split("\n")
+    lines = file.text.split("\n")
     values = read_table(lines, 0, None, COLUMNS, {})
     track = Track(
         device=ONLY_DEVICE,
@@ -47,3 +49,6 @@ def read(text: str) -> Content:
         place=partial(line_of_row, lines, 0),
     )
     return Content((track,), SourceFrame.ours(), clock_means_something=False)
+
+
+FORMAT = Format("TUM", (".tum",), read, matches, only_named=(".txt",))

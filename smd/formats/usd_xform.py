@@ -13,25 +13,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import Format
 from smd.formats.frame import METRES_PER_UNIT, Mount, SourceFrame
 from smd.formats.tracks import Content, Track, shown
 
 if TYPE_CHECKING:
     from pxr import Usd, UsdGeom
 
-SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-
 _FRONT = {"Y": "z", "Z": "-y"}
 """Where a prop faces that stands along the axes, by the axis that is up: as in CAD and Blender."""
 
 
-def read(path: Path) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return a track for every animated prim.
 
     Raises
@@ -42,7 +41,7 @@ def read(path: Path) -> Content:
     from pxr import Tf, Usd, UsdGeom
 
     try:
-        stage = Usd.Stage.Open(str(path))
+        stage = Usd.Stage.Open(str(file.path))
     except Tf.ErrorException as error:
         why = str(error).strip().splitlines()[-1]
         raise Fault("", "a USD file", shown(why)) from error
@@ -111,3 +110,7 @@ def _track(prim: UsdGeom.Xformable, device: str, stage: Usd.Stage) -> Track:
 def _place(device: str, times: list[float], i: int) -> str:
     """Return where pose ``i`` of a device stands in the file."""
     return f"prim {device!r}, time code {times[i]:g}"
+
+
+FORMAT = Format("USD", (), read, only_named=(".usd", ".usda", ".usdc", ".usdz"))
+"""A USD file may as well be an animation that was made of a recording."""
