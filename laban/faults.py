@@ -27,7 +27,17 @@ class Fault(Exception):  # noqa: N818 -- not the error: that names the file
     def __init__(self, place: str, expected: str, found: object) -> None:
         self.place = place
         self.what = printable(f"expected {expected}, found {found}")
-        super().__init__(f"{place}: {self.what}" if place else self.what)
+        super().__init__(place, expected, found)
+
+    @classmethod
+    def saying(cls, place: str, what: str) -> Fault:
+        """Return the fault that somebody who knows of no file has put into words already."""
+        fault = cls(place, "", "")
+        fault.what = printable(what)
+        return fault
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.what}" if self.place else self.what
 
     def of(self, file: Path | str, error: type[_Error], joint: str = ": ") -> _Error:
         """Return the user's error: file, place, expected, found.

@@ -41,11 +41,11 @@ def import_file(
         If the file is missing, of another format, damaged, or holds no skeleton.
     """
     path = Path(path)
-    try:
-        with naming(path, ImportedFileError):
+    with naming(path, ImportedFileError):
+        try:
             return _read(path, up, unit_m, skeleton)
-    except CharacterError as error:
-        raise ImportedFileError(f"{path}: {error}") from error
+        except CharacterError as error:
+            raise Fault.saying("", str(error)) from error
 
 
 def _read(path: Path, up: str | None, unit_m: float | None, skeleton: str | None) -> Imported:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 import struct
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
@@ -14,6 +13,7 @@ import numpy as np
 
 from actions_library.importers.imported import MOST_BYTES
 from laban.faults import Fault
+from laban.json_node import parse_json
 from smd.geometry.arrays import FloatArray
 
 _COMPONENTS = {
@@ -97,12 +97,7 @@ class GltfFile:
         items = sum(data.count(mark) for mark in (b",", b"{", b"["))
         if items > _MOST_ITEMS:
             raise Fault("", f"JSON of at most {_MOST_ITEMS} items", items)
-        try:
-            document = json.loads(data.decode("utf-8-sig"))
-        except RecursionError:
-            raise Fault("", "JSON", "JSON nested too deeply") from None
-        except ValueError as error:
-            raise Fault("", "JSON", str(error)[:80]) from None
+        document = parse_json(data).value
         if not isinstance(document, dict):
             raise Fault("", "a JSON object", type(document).__name__)
         return document

@@ -11,13 +11,13 @@ References
 
 from __future__ import annotations
 
-import json
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from laban.faults import Fault
+from laban.json_node import parse_json
 from smd.formats.file import RecordingFile
 from smd.formats.format import Format
 from smd.formats.frame import Mount, SourceFrame
@@ -43,14 +43,7 @@ def read(file: RecordingFile) -> Content:
     Fault
         If the text is not JSON, no device has poses, or a pose lacks a number.
     """
-    try:
-        whole = json.loads(file.text)
-    except RecursionError:
-        raise Fault("", "devices with poses", "JSON nested too deeply") from None
-    except json.JSONDecodeError as error:
-        raise Fault(f"line {error.lineno}", "JSON", error.msg) from None
-    except ValueError as error:  # an integer of thousands of digits
-        raise Fault("", "JSON", str(error)) from None
+    whole = parse_json(file.text).value  # poses by the thousand: read without places of their own
     devices = whole.get("recording", whole) if isinstance(whole, dict) else whole
     poses = {
         str(device): content["poses"]

@@ -188,7 +188,7 @@ def test_an_unknown_action_is_answered_with_those_there_are(library):
         ({"character": "C:x"}, "character"),
         ({"actions": {}}, "actions"),
         ({"actions": ["walk"]}, r"actions\[0\]"),
-        ({"actions": [{"name": "walk"}]}, "action 'walk': .*no such key"),
+        ({"actions": [{"name": "walk"}]}, "action 'walk': expected the key .travels., found none"),
         ({"actions": [{"name": "w", "pattern": "T_Q", "clip": "a"}]}, "pattern"),
         ({"actions": [{"name": "w", "pattern": 5, "clip": "a"}]}, "pattern"),
         ({"actions": [{"name": "w", "pattern": "T_Z (", "clip": "a"}]}, r"'w'.*character 6"),

@@ -26,6 +26,11 @@ def test_the_whole_of_a_file_has_no_place():
     assert str(Fault("", "rows", "none")) == "expected rows, found none"
 
 
+def test_what_others_have_put_into_words_is_left_as_it_is():
+    fault = Fault.saying("row 2", "pattern 'T_': expected a token")
+    assert str(fault.of("b.txt", DoorError)) == "b.txt: row 2: pattern 'T_': expected a token"
+
+
 def test_a_message_is_one_line_whatever_was_found():
     fault = Fault("line 3", "a name", "a\nb\x1b[2J")
     assert str(fault.of("b.txt", DoorError)) == "b.txt: line 3: expected a name, found a_b_[2J"
