@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from actions_library.importers.format import Asked
 from actions_library.importers.imported import (
     DEEPEST,
     MOST_BYTES,
@@ -68,7 +69,7 @@ class _Hierarchy:
     channels: list[list[str]] = field(default_factory=list)
 
 
-def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
+def read(path: Path, asked: Asked) -> Imported:
     """Return the skeleton and the one animation of a BVH file."""
     if path.stat().st_size > MOST_BYTES:
         raise Fault("", f"at most {MOST_BYTES} bytes", path.stat().st_size)
@@ -80,9 +81,9 @@ def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
     for j, parent in enumerate(tree.parents):
         if parent >= 0:
             place[j] += place[parent]
-    turn = to_y_up(up or _guessed_up(tree, place))
+    turn = to_y_up(asked.up or _guessed_up(tree, place))
     place = place @ turn.T
-    unit = checked_unit(_guessed_unit(place) if unit_m is None else unit_m)
+    unit = checked_unit(_guessed_unit(place) if asked.unit_m is None else asked.unit_m)
     rest = np.tile(np.eye(4), (len(place), 1, 1))
     rest[:, :3, :3], rest[:, :3, 3] = turn, unit * place
     skeleton = skeleton_of(tree.names, tree.parents, rest, rest)

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
+from actions_library.importers.format import Asked
 from actions_library.importers.gltf_animations import read_animations
 from actions_library.importers.gltf_file import GltfFile
 from actions_library.importers.gltf_meshes import read_meshes
@@ -33,12 +34,14 @@ from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
+def read(path: Path, asked: Asked) -> Imported:
     """Return the skeleton, meshes and animations of a glTF file."""
     file = GltfFile(path)
     nodes = read_nodes(file)
     change = np.eye(4)
-    change[:3, :3] = to_y_up(up or "y") * checked_unit(1.0 if unit_m is None else unit_m)
+    change[:3, :3] = to_y_up(asked.up or "y") * checked_unit(
+        1.0 if asked.unit_m is None else asked.unit_m
+    )
     joints = find_joints(file, nodes)
     parents = joint_parents(nodes, joints)
     rest = change @ nodes.rest()

@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 from pxr import Tf, Usd, UsdGeom, UsdSkel
 
+from actions_library.importers.format import Asked
 from actions_library.importers.imported import (
     Imported,
     checked_unit,
@@ -35,30 +36,26 @@ from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def read(
-    path: Path, *, up: str | None, unit_m: float | None, skeleton: str | None = None
-) -> Imported:
+def read(path: Path, asked: Asked) -> Imported:
     """Return a skeleton, its meshes and its animation from a USD file."""
     check_layers(path)
     try:
         stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
         check_used(path, stage)
-        return _read(path, stage, up, unit_m, skeleton)
+        return _read(path, stage, asked)
     # A crate's values are unpacked when they are asked for, and damage shows only then.
     except (Tf.ErrorException, UnicodeDecodeError) as error:
         raise Fault("", "a USD file", first_line(error)) from None
 
 
-def _read(
-    path: Path, stage: Usd.Stage, up: str | None, unit_m: float | None, name: str | None
-) -> Imported:
+def _read(path: Path, stage: Usd.Stage, asked: Asked) -> Imported:
     prims = list(Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()))
     meshes = [UsdGeom.Mesh(p) for p in prims if p.IsA(UsdGeom.Mesh)]
     skeletons = [UsdSkel.Skeleton(p) for p in prims if p.IsA(UsdSkel.Skeleton)]
-    chosen = _chosen(skeletons, meshes, name)
+    chosen = _chosen(skeletons, meshes, asked.skeleton)
     change = np.eye(4)
-    axis = up or str(UsdGeom.GetStageUpAxis(stage)).lower()
-    unit = UsdGeom.GetStageMetersPerUnit(stage) if unit_m is None else unit_m
+    axis = asked.up or str(UsdGeom.GetStageUpAxis(stage)).lower()
+    unit = UsdGeom.GetStageMetersPerUnit(stage) if asked.unit_m is None else asked.unit_m
     change[:3, :3] = to_y_up(axis) * checked_unit(unit)
     bound = [mesh for mesh in meshes if skeleton_of_mesh(mesh) == chosen.GetPath()]
     return _imported(path, stage, chosen, bound, change, len(skeletons))
