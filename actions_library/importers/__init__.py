@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from actions_library.importers.format import Asked, Format, Importer
+from actions_library.importers.format import Importer, ImportFormat, ImportOptions
 from actions_library.importers.imported import Animation, Imported
 from laban.faults import Fault, naming
 from smd.errors import CharacterError, ImportedFileError
@@ -31,9 +31,9 @@ def _usd() -> Importer:
 
 
 FORMATS = (
-    Format("BVH", (".bvh",), _bvh),
-    Format("glTF", (".glb", ".gltf"), _gltf),
-    Format("USD", (".usd", ".usda", ".usdc", ".usdz"), _usd, has_skeletons=True),
+    ImportFormat("BVH", (".bvh",), _bvh),
+    ImportFormat("glTF", (".glb", ".gltf"), _gltf),
+    ImportFormat("USD", (".usd", ".usda", ".usdc", ".usdz"), _usd, has_skeletons=True),
 )
 """A file's suffix says which one it has."""
 
@@ -70,12 +70,12 @@ def import_file(
     path = Path(path)
     with naming(path, ImportedFileError):
         try:
-            return _read(path, Asked(up, unit_m, skeleton))
+            return _read(path, ImportOptions(up, unit_m, skeleton))
         except CharacterError as error:
             raise Fault.saying("", str(error)) from error
 
 
-def _read(path: Path, asked: Asked) -> Imported:
+def _read(path: Path, asked: ImportOptions) -> Imported:
     """Read a file by the importer of its suffix; a fault does not name the file."""
     if not path.is_file():
         raise Fault("", "a file", "none")

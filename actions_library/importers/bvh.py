@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
-from actions_library.importers.format import Asked
+from actions_library.importers.format import ImportOptions
 from actions_library.importers.imported import (
     DEEPEST,
     MOST_BYTES,
@@ -69,7 +69,7 @@ class _Hierarchy:
     channels: list[list[str]] = field(default_factory=list)
 
 
-def read(path: Path, asked: Asked) -> Imported:
+def read(path: Path, asked: ImportOptions) -> Imported:
     """Return the skeleton and the one animation of a BVH file."""
     if path.stat().st_size > MOST_BYTES:
         raise Fault("", f"at most {MOST_BYTES} bytes", path.stat().st_size)

@@ -11,7 +11,7 @@ from actions_library.importers.imported import Imported
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ImportOptions:
     """What the user says of a file; None leaves a question to the file or its format.
 
     Attributes
@@ -29,7 +29,7 @@ class Asked:
 class Importer(Protocol):
     """A module that reads one format."""
 
-    def read(self, path: Path, asked: Asked) -> Imported:
+    def read(self, path: Path, asked: ImportOptions) -> Imported:
         """Return what a file holds, in metres, +Y up.
 
         Raises
@@ -41,7 +41,7 @@ class Importer(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Format:
+class ImportFormat:
     """A kind of file with characters or clips.
 
     Attributes

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from actions_library.importers.format import Asked
+from actions_library.importers.format import ImportOptions
 from actions_library.importers.gltf_animations import read_animations
 from actions_library.importers.gltf_file import GltfFile
 from actions_library.importers.gltf_meshes import read_meshes
@@ -34,7 +34,7 @@ from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def read(path: Path, asked: Asked) -> Imported:
+def read(path: Path, asked: ImportOptions) -> Imported:
     """Return the skeleton, meshes and animations of a glTF file."""
     file = GltfFile(path)
     nodes = read_nodes(file)

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from pxr import Tf, Usd, UsdGeom, UsdSkel
 
-from actions_library.importers.format import Asked
+from actions_library.importers.format import ImportOptions
 from actions_library.importers.imported import (
     Imported,
     checked_unit,
@@ -36,7 +36,7 @@ from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def read(path: Path, asked: Asked) -> Imported:
+def read(path: Path, asked: ImportOptions) -> Imported:
     """Return a skeleton, its meshes and its animation from a USD file."""
     check_layers(path)
     try:
@@ -48,7 +48,7 @@ def read(path: Path, asked: Asked) -> Imported:
         raise Fault("", "a USD file", first_line(error)) from None
 
 
-def _read(path: Path, stage: Usd.Stage, asked: Asked) -> Imported:
+def _read(path: Path, stage: Usd.Stage, asked: ImportOptions) -> Imported:
     prims = list(Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()))
     meshes = [UsdGeom.Mesh(p) for p in prims if p.IsA(UsdGeom.Mesh)]
     skeletons = [UsdSkel.Skeleton(p) for p in prims if p.IsA(UsdSkel.Skeleton)]

@@ -19,7 +19,7 @@ import numpy as np
 from laban.faults import Fault
 from laban.json_node import parse_json
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.tracks import Content, Track, shown
 from smd.geometry.arrays import FloatArray
@@ -107,4 +107,4 @@ def _numbers(device: str, poses: Any) -> FloatArray:
     return numbers
 
 
-FORMAT = Format("A-Frame motion capture", (".json",), read, matches)
+FORMAT = RecordingFormat("A-Frame motion capture", (".json",), read, matches)

@@ -19,7 +19,7 @@ import numpy as np
 
 from laban.faults import Fault
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.tracks import Content, Track
 
@@ -112,4 +112,4 @@ class _Cursor:
             raise Fault(place, f"the start of section {number}", f"{found}")
 
 
-FORMAT = Format("Beat Saber Open Replay", (".bsor",), read)
+FORMAT = RecordingFormat("Beat Saber Open Replay", (".bsor",), read)

@@ -10,7 +10,7 @@ from smd.formats.tracks import Content
 
 
 @dataclass(frozen=True, slots=True)
-class Format:
+class RecordingFormat:
     """A kind of recording file, text or binary alike.
 
     Attributes

@@ -28,7 +28,7 @@ from functools import partial
 
 from laban.faults import Fault
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.table import Encoder, cells, line_of_row, read_table
 from smd.formats.tracks import Content, Track, shown
@@ -129,4 +129,4 @@ def _nothing(cell: str) -> float:
     return 0.0
 
 
-FORMAT = Format("OptiTrack Motive", (".csv",), read, matches)
+FORMAT = RecordingFormat("OptiTrack Motive", (".csv",), read, matches)

@@ -27,7 +27,7 @@ from smd.doodle import Doodle, Recording
 from smd.errors import RecordingError
 from smd.files import replacing
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import SourceFrame
 from smd.formats.table import Encoder, cells, is_row, line_of_row, number, read_table
 from smd.formats.tracks import Content, Track, shown
@@ -264,4 +264,4 @@ def _writable_device(device: str) -> str:
     return device
 
 
-FORMAT = Format("native CSV", (".csv",), read, matches)
+FORMAT = RecordingFormat("native CSV", (".csv",), read, matches)

@@ -14,13 +14,13 @@ from smd.formats import aframe, bsor, motive, native, tum, usd_xform
 from smd.formats.checks import LATEST_S, checked
 from smd.formats.dropouts import SHORTEST_LOSS_S, find_dropouts
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Conversion, SourceFrame
 from smd.formats.tracks import Content, Track, shown
 from smd.geometry.arrays import BoolArray, IntArray
 from smd.geometry.rotations import normalized
 
-FORMATS: tuple[Format, ...] = (
+FORMATS: tuple[RecordingFormat, ...] = (
     motive.FORMAT,
     native.FORMAT,
     aframe.FORMAT,
@@ -124,7 +124,7 @@ def _opened(path: Path) -> Content:
     return _format_of(file).read(file)
 
 
-def _format_of(file: RecordingFile) -> Format:
+def _format_of(file: RecordingFile) -> RecordingFormat:
     """Return the format that is the suffix's own, or that knows the text."""
     for each in FORMATS:
         if each.matches is None and file.suffix in (*each.suffixes, *each.only_named):

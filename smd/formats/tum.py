@@ -13,7 +13,7 @@ from __future__ import annotations
 from functools import partial
 
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import SourceFrame
 from smd.formats.native import ONLY_DEVICE
 from smd.formats.table import cells, is_row, line_of_row, number, read_table
@@ -51,4 +51,4 @@ def read(file: RecordingFile) -> Content:
     return Content((track,), SourceFrame.ours(), clock_means_something=False)
 
 
-FORMAT = Format("TUM", (".tum",), read, matches, only_named=(".txt",))
+FORMAT = RecordingFormat("TUM", (".tum",), read, matches, only_named=(".txt",))

@@ -19,7 +19,7 @@ import numpy as np
 
 from laban.faults import Fault
 from smd.formats.file import RecordingFile
-from smd.formats.format import Format
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import METRES_PER_UNIT, Mount, SourceFrame
 from smd.formats.tracks import Content, Track, shown
 
@@ -112,5 +112,5 @@ def _place(device: str, times: list[float], i: int) -> str:
     return f"prim {device!r}, time code {times[i]:g}"
 
 
-FORMAT = Format("USD", (), read, only_named=(".usd", ".usda", ".usdc", ".usdz"))
+FORMAT = RecordingFormat("USD", (), read, only_named=(".usd", ".usda", ".usdc", ".usdz"))
 """A USD file may as well be an animation that was made of a recording."""
