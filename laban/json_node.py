@@ -194,10 +194,15 @@ class Node:
 
     def numbers(self, count: int) -> list[float]:
         """Return a list of so many finite numbers."""
-        items = self.items()
-        if len(items) != count:
-            raise self.fault(f"{count} numbers", f"{len(items)}")
-        return [item.number() for item in items]
+        if not isinstance(self.value, list):
+            raise self.fault("a list")
+        if len(self.value) != count:
+            raise self.fault(f"{count} numbers", f"{len(self.value)}")
+        if all(type(value) is float for value in self.value) and all(
+            map(math.isfinite, self.value)
+        ):
+            return list(self.value)  # without a place for each of thousands
+        return [item.number() for item in self.items()]
 
     def whole(self) -> int:
         """Return a whole number."""

@@ -207,6 +207,22 @@ def test_a_wrong_entry_is_named_with_its_file(library, tmp_path, change, named):
 
 
 @pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[" * 100_000, "expected JSON, found JSON nested too deeply"),
+        ('{"schema":', "line 1, column 11: expected JSON, found Expecting value"),
+        ("[]", "expected an object, found a list"),
+    ],
+)
+def test_what_is_no_table_of_contents_is_named_with_its_file(tmp_path, text, said):
+    file = tmp_path / "library.json"
+    file.write_text(text)
+    with pytest.raises(LibraryError) as caught:
+        load_library(tmp_path)
+    assert str(caught.value) == f"{file}: {said}"
+
+
+@pytest.mark.parametrize(
     ("file", "content"),
     [
         ("library.json", None),
