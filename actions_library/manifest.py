@@ -9,6 +9,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from actions_library.library import Credit, Library
+from laban.faults import Fault, naming
+from laban.json_node import Node, read_json
 from smd.errors import LibraryError, PatternError
 from smd.recognition.action import Action
 from smd.recognition.pattern import Pattern
@@ -28,47 +30,54 @@ def read_manifest(folder: Path) -> Library:
     LibraryError
         If the folder or the file is missing, or a key is absent or not of its type.
     """
-    path = folder / MANIFEST
     if not folder.is_dir():
         raise LibraryError(f"{folder}: expected a library's folder, found none")
-    try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise LibraryError(
-            f"{path}: expected a library's table of contents: {error.strerror}"
-        ) from error
-    except ValueError as error:
-        raise LibraryError(f"{path}: expected JSON: {error}") from error
-    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
-        raise LibraryError(f"{path}: schema: expected {SCHEMA!r}")
-    version = document.get("version")
-    if type(version) is not int or not 1 <= version <= VERSION:
-        raise LibraryError(f"{path}: version: expected 1 to {VERSION}, got {version!r}")
-    rows = _value(path, document, "actions", list)
-    for index, row in enumerate(rows):
-        if not isinstance(row, dict):
-            raise LibraryError(f"{path}: actions[{index}]: expected an object, got {row!r}")
-    for step in range(version, VERSION):
-        rows = [_UPGRADES[step](row) for row in rows]
+    path = folder / MANIFEST
+    with naming(path, LibraryError):
+        return _library(folder, read_json(path, "a library's table of contents"))
+
+
+def _library(folder: Path, node: Node) -> Library:
+    version = _version(node)
     actions, clip_files, exemplar_files, credits = [], {}, {}, {}
-    for row in rows:
-        action = _action(path, row)
+    for item in node.member("actions").items():
+        row = _upgraded(item, version)
+        action = _action(folder, row)
         actions.append(action)
-        clip_files[action.name] = _file(path, row, "clip")
+        clip_files[action.name] = _file(row.member("clip"))
         credits[action.name] = Credit(
-            author=_value(path, row, "author", str), licence=_value(path, row, "licence", str)
+            author=row.member("author").text(), licence=row.member("licence").text()
         )
         if action.exemplar is not None:
-            exemplar_files[action.name] = _file(path, row, "exemplar")
+            exemplar_files[action.name] = _file(row.member("exemplar"))
     return Library(
-        name=_value(path, document, "name", str),
+        name=node.member("name").text(),
         folder=folder,
         actions=tuple(actions),
-        character_file=_file(path, document, "character"),
+        character_file=_file(node.member("character")),
         clip_files=clip_files,
         exemplar_files=exemplar_files,
         credits=credits,
     )
+
+
+def _version(node: Node) -> int:
+    """Return the version of a manifest that this release reads."""
+    schema, version = node.member("schema"), node.member("version")
+    if schema.value != SCHEMA:
+        raise schema.fault(f'"{SCHEMA}"')
+    if not 1 <= version.whole() <= VERSION:
+        raise version.fault(f"1 to {VERSION}")
+    return version.whole()
+
+
+def _upgraded(row: Node, version: int) -> Node:
+    """Return an action as of this version; its place is its name, where it has one."""
+    name = row.member("name").text()
+    value = row.value
+    for step in range(version, VERSION):
+        value = _UPGRADES[step](value)
+    return Node(value, f"action {name!r}")
 
 
 def manifest_text(library: Library) -> str:
@@ -125,72 +134,53 @@ _UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = MappingPro
 """From each past version to the next one."""
 
 
-def _action(path: Path, row: dict[str, Any]) -> Action:
-    name = _value(path, row, "name", str)
-    text = row.get("pattern")
-    if text is not None and not isinstance(text, str):
-        raise LibraryError(f"{path}: action {name!r}: pattern: expected text or null")
-    try:
-        pattern = None if text is None else Pattern.parse(text)
-    except PatternError as error:
-        raise LibraryError(f"{path}: action {name!r}: pattern: {error}") from error
-    learned_from = _value(path, row, "learned_from", list)
-    if not all(isinstance(source, str) for source in learned_from):
-        raise LibraryError(f"{path}: action {name!r}: learned_from: expected a list of text")
+def _action(folder: Path, row: Node) -> Action:
     return Action(
-        name=name,
-        pattern=pattern,
-        travels=_value(path, row, "travels", bool),
-        cyclic=_value(path, row, "cyclic", bool),
-        description=_value(path, row, "description", str),
-        learned_from=tuple(learned_from),
-        rest=_value(path, row, "rest", str),
-        exemplar=_exemplar(path, row),
+        name=row.member("name").text(),
+        pattern=_pattern(row.options().get("pattern")),
+        travels=row.member("travels").truth(),
+        cyclic=row.member("cyclic").truth(),
+        description=row.member("description").text(),
+        learned_from=tuple(source.text() for source in row.member("learned_from").items()),
+        rest=row.member("rest").text(),
+        exemplar=_exemplar(folder, row),
     )
 
 
-def _exemplar(path: Path, row: dict[str, Any]) -> Exemplar | None:
+def _pattern(node: Node | None) -> Pattern | None:
+    """Return an action's pattern; an action without one may leave it out."""
+    if node is None or node.value is None:
+        return None
+    try:
+        return Pattern.parse(node.text())
+    except PatternError as error:
+        raise Fault.saying(node.place, str(error)) from error
+
+
+def _exemplar(folder: Path, row: Node) -> Exemplar | None:
     """Return what the action remembers of examples, read from its file."""
-    if "exemplar" in row and row["exemplar"] is None:
+    node = row.member("exemplar")
+    if node.value is None:
         return None
     from actions_library.exemplars import read_exemplar
 
-    return read_exemplar(path.parent / _file(path, row, "exemplar"), _own(path, row))
+    return read_exemplar(folder / _file(node), _own(row.member("own")))
 
 
-def _own(path: Path, row: dict[str, Any]) -> Ownership:
+def _own(node: Node) -> Ownership:
     """Return which of an action's examples are the performer's own."""
-    own = row.get("own")
+    own = node.value
     if isinstance(own, bool):
         return own
     if isinstance(own, list) and all(type(number) is int for number in own):
         return tuple(own)
-    raise LibraryError(
-        f"{path}: {_place(row, 'own')}: expected true, false or a list of numbers, got {own!r}"
-    )
+    raise node.fault("true, false or a list of numbers", repr(own)[:60])
 
 
-def _value(path: Path, row: dict[str, Any], key: str, kind: type) -> Any:
-    """Return ``row[key]`` if it is of the type ``kind``."""
-    where = _place(row, key)
-    if key not in row:
-        raise LibraryError(f"{path}: {where}: expected {kind.__name__}, found no such key")
-    if not isinstance(row[key], kind):
-        raise LibraryError(f"{path}: {where}: expected {kind.__name__}, got {row[key]!r}")
-    return row[key]
-
-
-def _place(row: dict[str, Any], key: str) -> str:
-    """Return a key with the action whose it is; only the whole document has actions."""
-    return key if key == "name" or "actions" in row else f"action {row.get('name')!r}: {key}"
-
-
-def _file(path: Path, row: dict[str, Any], key: str) -> str:
+def _file(node: Node) -> str:
     """Return a file's name that stays inside the library's folder."""
-    name = str(_value(path, row, key, str))
+    name = node.text()
     parts = PurePosixPath(name).parts
     if not parts or ".." in parts or "\\" in name or ":" in name or name.startswith("/"):
-        raise LibraryError(
-            f"{path}: {_place(row, key)}: expected a file inside the folder, got {name!r}"
-        )
+        raise node.fault("a file inside the folder")
     return name

@@ -2,24 +2,78 @@
 
 from __future__ import annotations
 
-from importlib import import_module
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Protocol
 
 from smd.errors import ExportError
 
 if TYPE_CHECKING:
+    from actions_library.stage_frame import StageFrame
     from smd.acting.performance import Performance
 
-WRITERS = {
-    ".usda": "exporters.usd:write_usd",
-    ".usdc": "exporters.usd:write_usd",
-    ".usdz": "exporters.usd:write_usd",
-}
-"""By suffix, the function that writes such a file; its module is imported when it is needed."""
+
+class Writer(Protocol):
+    """A function that writes a format."""
+
+    def __call__(self, performance: Performance, path: Path) -> None:
+        """Write a performance; the file is complete or absent.
+
+        Raises
+        ------
+        ExportError
+            If the file cannot be written.
+        """
 
 
-def write(performance: Performance, path: Path | str, **options: Any) -> None:
+class StageWriter(Protocol):
+    """A `Writer` of stages, with coordinates of their own and variants."""
+
+    def __call__(
+        self,
+        performance: Performance,
+        path: Path,
+        *,
+        neutral: Performance | None = ...,
+        frame: StageFrame = ...,
+    ) -> None:
+        """Write a performance; what else is asked for is told at `write`."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExportFormat:
+    """A kind of file that a performance can be written to.
+
+    Attributes
+    ----------
+    suffixes : of its files, in lower case.
+    writer : returns the function that writes them; its module is imported only then.
+    stage_writer : the same, where the format knows the options of a `StageWriter`.
+    """
+
+    suffixes: tuple[str, ...]
+    writer: Callable[[], Writer]
+    stage_writer: Callable[[], StageWriter] | None = None
+
+
+def _usd() -> StageWriter:
+    from exporters.usd import write_usd
+
+    return write_usd
+
+
+FORMATS = (ExportFormat((".usda", ".usdc", ".usdz"), _usd, _usd),)
+"""A file's suffix says which one it is to have."""
+
+
+def write(
+    performance: Performance,
+    path: Path | str,
+    *,
+    neutral: Performance | None = None,
+    frame: StageFrame | None = None,
+) -> None:
     """Write a performance in the format that the file's suffix names.
 
     Parameters
@@ -28,23 +82,39 @@ def write(performance: Performance, path: Path | str, **options: Any) -> None:
         What to write.
     path
         Replaced as a whole once written.
-    options
-        Those of the format's function in `WRITERS`; for USD ``neutral`` and ``frame``
-        (`exporters.usd.write_usd`).
+    neutral
+        The same Score performed without expression, to be a variant beside it: USD alone.
+    frame
+        Coordinates of the stage, by default ours: USD alone.
 
     Raises
     ------
     ExportError
-        If the suffix is none of `WRITERS`, or the file cannot be written.
+        If the suffix is of none of `FORMATS`, its format lacks an option that is asked for, or the
+        file cannot be written.
     """
     path = Path(path)
-    require_known_suffix(path)
-    module, function = WRITERS[path.suffix.lower()].split(":")
-    getattr(import_module(module), function)(performance, path, **options)
+    found = _format_of(path)
+    if neutral is None and frame is None:
+        found.writer()(performance, path)
+        return
+    if found.stage_writer is None:
+        asked = "frame" if neutral is None else "neutral"
+        able = ", ".join(s for each in FORMATS if each.stage_writer for s in each.suffixes)
+        raise ExportError(f"{path}: expected {able} with {asked}, found {path.suffix}")
+    from actions_library.stage_frame import OURS
+
+    found.stage_writer()(performance, path, neutral=neutral, frame=frame or OURS)
 
 
 def require_known_suffix(path: Path) -> None:
-    """Raise ExportError unless the file's suffix is one of `WRITERS`."""
-    if path.suffix.lower() not in WRITERS:
-        known = ", ".join(WRITERS)
-        raise ExportError(f"{path}: expected a suffix of {known}, found {path.suffix or 'none'}")
+    """Raise ExportError unless the file's suffix is one of `FORMATS`."""
+    _format_of(path)
+
+
+def _format_of(path: Path) -> ExportFormat:
+    for each in FORMATS:
+        if path.suffix.lower() in each.suffixes:
+            return each
+    known = ", ".join(suffix for each in FORMATS for suffix in each.suffixes)
+    raise ExportError(f"{path}: expected a suffix of {known}, found {path.suffix or 'none'}")

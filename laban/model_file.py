@@ -17,11 +17,12 @@ import numpy as np
 
 from laban.description import DESCRIPTION_NAMES
 from laban.effort import AXES, NEUTRAL, POLES, LabanError
+from laban.faults import naming
+from laban.json_node import Node, parse_json, read_json, shown
 from laban.linear import Linear, Softmax
 from laban.model import STATES, EffortModel, Taught, state_words
 from laban.motion import FloatArray
 from laban.reader import AxisReader, Entries, Reader, StateReader
-from laban.record import Record
 from laban.size import Sizes
 
 SCHEMA = "laban.effort_model"
@@ -38,12 +39,8 @@ def load_effort_model(path: Path | str | None = None) -> EffortModel:
     """
     if path is None:
         return _shipped()
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise LabanError(f"{path}: expected a model file, but {reason}") from error
-    return effort_model_from_json(text, source=str(path))
+    with naming(path, LabanError):
+        return _model(read_json(Path(path), "a model file"))
 
 
 @cache
@@ -76,30 +73,32 @@ def effort_model_to_json(model: EffortModel) -> str:
 
 def effort_model_from_json(text: str, *, source: str) -> EffortModel:
     """Return the model that ``text`` describes; ``source`` is its name in error messages."""
-    try:
-        document = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise LabanError(f"{source}: expected JSON, but {error}") from error
-    record = Record(document, source, "model")
-    schema, version = record.get("schema", str), record.get("version", int)
-    if schema != SCHEMA:
-        raise LabanError(f"{source}: schema: expected {SCHEMA!r}, got {schema!r}")
-    if version != VERSION:
-        whose = "a newer version's" if version > VERSION else "an older version's; train it again"
-        raise LabanError(f"{source}: version: expected {VERSION}, got {version}, {whose}")
-    axes = Record(record.get("axes", dict), source, "axes")
-    for name in axes.content:
-        if name not in AXES:
-            raise LabanError(f"{source}: axes: expected some of {', '.join(AXES)}, got {name!r}")
-    if not axes.content:
-        raise LabanError(f"{source}: axes: expected at least one, got none")
-    names = [axis for axis in AXES if axis in axes.content]
+    with naming(source, LabanError):
+        return _model(parse_json(text))
+
+
+def _model(node: Node) -> EffortModel:
+    schema, version = node.member("schema"), node.member("version")
+    if schema.text() != SCHEMA:
+        raise schema.fault(f'"{SCHEMA}"')
+    if version.whole() != VERSION:
+        newer = version.whole() > VERSION
+        whose = "a newer version's" if newer else "an older version's; train it again"
+        raise version.fault(f"{VERSION}", f"{version.value}, {whose}")
+    axes = node.member("axes").options()
+    for axis in axes:
+        if axis not in AXES:
+            raise node.member("axes").fault(f"some of {', '.join(AXES)}", repr(axis))
+    if not axes:
+        raise node.member("axes").fault("at least one", "none")
+    names = [axis for axis in AXES if axis in axes]
+    seed = node.member("seed")
     return EffortModel(
-        axes={axis: _taught_from(axes.get(axis, dict), source, axis) for axis in names},
-        alone=_reader_from(Record(record.get("alone", dict), source, "alone"), names, own=False),
-        own=_reader_from(Record(record.get("own", dict), source, "own"), names, own=True),
-        trained_on=record.get("trained_on", str),
-        seed=record.get("seed", int | None),
+        axes={axis: _taught_from(axes[axis], axis) for axis in names},
+        alone=_reader_from(node.member("alone"), names, own=False),
+        own=_reader_from(node.member("own"), names, own=True),
+        trained_on=node.member("trained_on").text(),
+        seed=None if seed.value is None else seed.whole(),
     )
 
 
@@ -177,93 +176,97 @@ def _is_deep(value: Any) -> bool:
     )
 
 
-def _taught_from(content: dict[str, Any], source: str, axis: str) -> Taught:
-    record = Record(content, source, f"axes.{axis}")
-    examples = Record(record.get("examples", dict), source, f"axes.{axis}.examples")
-    low, high = POLES[axis]
+def _taught_from(node: Node, axis: str) -> Taught:
+    examples = node.member("examples")
+    low, high = (examples.member(pole).count() for pole in POLES[axis])
     return Taught(
-        examples=(examples.count(low), examples.count(NEUTRAL), examples.count(high)),
-        performers=record.count("performers"),
+        examples=(low, examples.member(NEUTRAL).count(), high),
+        performers=node.member("performers").count(),
     )
 
 
-def _reader_from(record: Record, axes: list[str], *, own: bool) -> Reader:
+def _reader_from(node: Node, axes: list[str], *, own: bool) -> Reader:
     """Return a reader of some axes, checked."""
-    listed, products = record.records("entries"), record.records("products")
+    listed, products = node.member("entries").items(), node.member("products").items()
     if not listed:
-        raise record.fault("entries", "expected at least one, got none")
-    spread = record.number("size_spread", 0.0, open_ends=True)
+        raise node.member("entries").fault("at least one", "none")
+    spread = node.member("size_spread").positive()
     entries = _entries_from(listed, products, spread, own=own)
-    reach = record.number("reach", 0.0, open_ends=True)
+    reach = node.member("reach").positive()
     weighed = [*listed, *products]
-    parts = record.record("axes")
     readers = {}
     for axis in axes:
-        part = parts.record(axis)
+        part = node.member("axes").member(axis)
         readers[axis] = AxisReader(
-            Linear(np.array([one.number(axis) for one in weighed]), part.number("bias")),
-            _members_from(part.record("members")),
-            part.number("held_out_accuracy", 0.0, 1.0),
+            Linear(
+                np.array([one.member(axis).number() for one in weighed]),
+                part.member("bias").number(),
+            ),
+            _members_from(part.member("members")),
+            part.member("held_out_accuracy").number(0.0, 1.0),
         )
-    if record.get("states", dict | None) is None:
+    states = node.member("states")
+    if states.value is None:
         return Reader(entries, readers, reach)
-    states = record.record("states")
     expected = [" ".join(state_words(state)) for state in STATES]
-    if states.get("names", list) != expected:
-        raise states.fault("names", f"expected {', '.join(expected)}")
-    weight = np.array([one.numbers("states", len(STATES)) for one in weighed]).T
+    if [name.text() for name in states.member("names").items()] != expected:
+        raise states.member("names").fault(", ".join(expected))
+    weight = np.array([one.member("states").numbers(len(STATES)) for one in weighed]).T
     return Reader(
         entries,
         readers,
         reach,
         StateReader(
-            Softmax(weight, np.array(states.numbers("bias", len(STATES)))),
-            states.number("held_out_accuracy", 0.0, 1.0),
+            Softmax(weight, np.array(states.member("bias").numbers(len(STATES)))),
+            states.member("held_out_accuracy").number(0.0, 1.0),
         ),
     )
 
 
-def _members_from(record: Record) -> Mapping[str, float]:
-    return {name: record.number(name, 0.0, 1.0) for name in record.content}
+def _members_from(node: Node) -> Mapping[str, float]:
+    return {name: share.number(0.0, 1.0) for name, share in node.options().items()}
 
 
 def _entries_from(
-    listed: list[Record], products: list[Record], size_spread: float, *, own: bool
+    listed: list[Node], products: list[Node], size_spread: float, *, own: bool
 ) -> Entries:
     """Return which entries of a description a reader looks at, and which products of them."""
-    names = [one.get("name", str) for one in listed]
-    for i, (one, name) in enumerate(zip(listed, names, strict=True)):
+    named = [one.member("name") for one in listed]
+    names = [node.text() for node in named]
+    for i, (node, name) in enumerate(zip(named, names, strict=True)):
         if name not in DESCRIPTION_NAMES:
-            raise one.fault("name", f"expected a feature of this version, got {name!r}")
+            raise node.fault("a feature of this version")
         if name in names[:i]:
-            raise one.fault("name", f"{name!r} is there twice")
-    ranges = np.array([one.pair("range") for one in listed])
+            raise node.fault("each feature once", f"{shown(name)} twice")
+    ranges = np.array([one.member("range").numbers(2) for one in listed])
     for one, (low, high) in zip(listed, ranges, strict=True):
         if low > high:
-            raise one.fault("range", "expected low, high")
-    pairs = [product.get("of", list) for product in products]
+            raise one.member("range").fault("low, high", f"{low:g}, {high:g}")
+    pairs = [[name.text() for name in product.member("of").items()] for product in products]
     for product, pair in zip(products, pairs, strict=True):
         if len(pair) != 2 or any(name not in names for name in pair):
-            raise product.fault("of", f"expected the names of two entries, got {pair!r}")
+            raise product.member("of").fault("the names of two entries", repr(pair)[:60])
     columns = np.array([DESCRIPTION_NAMES.index(name) for name in names], dtype=np.int64)
     return Entries(
         columns=columns,
         lowest=ranges[:, 0],
         highest=ranges[:, 1],
-        centre=np.array([one.number("centre") for one in listed]),
-        scale=np.array([one.number("scale", 0.0, open_ends=True) for one in listed]),
+        centre=_column(listed, "centre"),
+        scale=np.array([one.member("scale").positive() for one in listed]),
         pairs=np.array(
             [[names.index(name) for name in pair] for pair in pairs], dtype=np.int64
         ).reshape(-1, 2),
-        unlike=_lower_triangle([one.numbers("unlike", i + 1) for i, one in enumerate(listed)]),
-        sizes=Sizes(
-            columns,
-            np.array([one.number("usual") for one in listed]),
-            np.array([one.number("size") for one in listed]),
-            size_spread,
+        unlike=_lower_triangle(
+            [one.member("unlike").numbers(i + 1) for i, one in enumerate(listed)]
         ),
-        typical=np.array([one.number("typical") for one in listed]) if own else None,
+        sizes=Sizes(columns, _column(listed, "usual"), _column(listed, "size"), size_spread),
+        typical=_column(listed, "typical") if own else None,
     )
+
+
+def _column(listed: list[Node], key: str) -> FloatArray:
+    """Return a number of each entry."""
+    return np.array([one.member(key).number() for one in listed])
 
 
 def _lower_triangle(rows: list[list[float]]) -> FloatArray:

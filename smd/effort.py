@@ -15,6 +15,7 @@ import numpy as np
 from laban import AXES, Effort, EffortModel, OwnMeasure, RigidMotion
 from laban.description import DESCRIPTION_NAMES, describe
 from laban.effort import NEUTRAL, POLES, LabanError
+from laban.faults import Fault, naming
 from laban.model import effort_of, state_of
 from laban.own import FEWEST_TAKES, own_measure
 from laban.reader import Reader
@@ -208,49 +209,49 @@ def read_manifest(path: Path) -> list[ManifestRow]:
         If it cannot be read, or a row has an unknown word, no performer, or a file that is not
         there; the message names file and row, and every row is checked before it is raised.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise LabanError(f"{path}: expected a manifest, but {reason}") from error
+    with naming(path, LabanError, joint=" "):
+        try:
+            text = path.read_text(encoding="utf-8-sig")
+        except (OSError, UnicodeError) as error:
+            reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+            raise Fault.saying("", f"expected a manifest, but {reason}") from error
+        return _manifest_rows(text, path.parent)
+
+
+def _manifest_rows(text: str, folder: Path) -> list[ManifestRow]:
+    """Return the rows of a manifest's text, each checked."""
     table = csv.DictReader(text.splitlines())
     columns = [name.strip() for name in table.fieldnames or ()]
     table.fieldnames = columns
-    for needed in ("file", "performer"):
-        if needed not in columns:
-            raise LabanError(
-                f"{path}: expected the columns file, {', '.join(AXES)}, performer; "
-                f"found {', '.join(columns) or 'none'}"
-            )
-    rows = [_manifest_row(path, table.line_num, cells) for cells in table]
+    if not {"file", "performer"} <= set(columns):
+        expected = f"the columns file, {', '.join(AXES)}, performer"
+        raise Fault("", expected, ", ".join(columns) or "none")
+    rows = [_manifest_row(folder, f"line {table.line_num}", cells) for cells in table]
     if not rows:
-        raise LabanError(f"{path}: expected at least one take, found none")
+        raise Fault("", "at least one take", "none")
     return rows
 
 
-def _manifest_row(manifest: Path, line: int, cells: dict[str, str | None]) -> ManifestRow:
+def _manifest_row(folder: Path, line: str, cells: dict[str, str | None]) -> ManifestRow:
     """Return one row of a manifest, checked."""
-    where = f"{manifest} line {line}"
     named = {key: (value or "").strip() for key, value in cells.items() if isinstance(key, str)}
     if not named["file"]:
-        raise LabanError(f"{where}: file: expected a recording, found nothing")
-    recording = manifest.parent / named["file"]
+        raise Fault(f"{line}: file", "a recording", "nothing")
+    recording = folder / named["file"]
     if not recording.is_file():
-        raise LabanError(f"{where}: file: expected a recording, {recording} is not there")
+        raise Fault(f"{line}: file", "a recording", f"none: {recording}")
     if not named["performer"]:
-        raise LabanError(f"{where}: performer: expected a name, found nothing")
-    meant = tuple(_meant(where, axis, named.get(axis, "")) for axis in AXES)
+        raise Fault(f"{line}: performer", "a name", "nothing")
+    meant = tuple(_meant(f"{line}: {axis}", axis, named.get(axis, "")) for axis in AXES)
     return ManifestRow(recording, meant, named["performer"])
 
 
-def _meant(where: str, axis: str, word: str) -> float:
+def _meant(place: str, axis: str, word: str) -> float:
     """Return the value of a word on an axis; NaN of no word."""
     low, high = POLES[axis]
     values = {"": np.nan, low: -1.0, NEUTRAL: 0.0, high: 1.0}
     if word.lower() not in values:
-        raise LabanError(
-            f"{where}: {axis}: expected {low}, {high}, {NEUTRAL} or nothing, got {word!r}"
-        )
+        raise Fault(place, f"{low}, {high}, {NEUTRAL} or nothing", repr(word))
     return values[word.lower()]
 
 

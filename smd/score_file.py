@@ -10,11 +10,12 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeVar
 
-from laban import AXES, Effort
+from laban.effort import AXES, Effort
+from laban.faults import naming
+from laban.json_node import Node, parse_json, read_json, shown
 from smd.errors import ScoreError
 from smd.files import replacing
 from smd.score import INTENTS, Alternative, Part, Phrase, Score, Suggestion
-from smd.score_json import Node, shown, without_repeats
 
 SCHEMA = "smd.score"
 VERSION = 2
@@ -173,22 +174,8 @@ def read_score(path: Path | str) -> Score:
         If there is no such file or it is not a Score; one line names the file, the key, what
         was expected and what was found.
     """
-    path = Path(path)
-    if path.is_dir():
-        raise ScoreError(f"{path}: expected a Score file, found a folder")
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise ScoreError(f"{path}: expected a Score file, found none") from None
-    except OSError as error:
-        raise ScoreError(f"{path}: cannot be read: {error.strerror or error}") from error
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ScoreError(
-            f"{path}: expected UTF-8 text, found byte 0x{data[error.start]:02x} at {error.start}"
-        ) from None
-    return score_from_json(text, str(path))
+    with naming(path, ScoreError):
+        return _score(read_json(Path(path), "a Score file", keys_once=True))
 
 
 def score_from_json(text: str, source: str = "score") -> Score:
@@ -213,19 +200,8 @@ def score_from_json(text: str, source: str = "score") -> Score:
     ScoreError
         If it is not a Score; one line names ``source``, the key, what was expected and found.
     """
-    if "\0" in text:
-        raise ScoreError(f"{source}: expected UTF-8 text, found zero bytes, as in UTF-16")
-    try:
-        value = json.loads(text, object_pairs_hook=without_repeats)
-    except json.JSONDecodeError as error:
-        raise ScoreError(
-            f"{source}: line {error.lineno}, column {error.colno}: expected JSON, got: {error.msg}"
-        ) from None
-    except RecursionError:
-        raise ScoreError(f"{source}: expected a Score, found JSON nested too deeply") from None
-    except ValueError as error:
-        raise ScoreError(f"{source}: expected a Score, got: {error}") from None
-    return _score(Node(value, source))
+    with naming(source, ScoreError):
+        return _score(parse_json(text, keys_once=True))
 
 
 def _effort(node: Node) -> Effort:
@@ -360,7 +336,7 @@ def _check_schema(node: Node) -> None:
     if schema != SCHEMA:
         found = shown(schema) if "schema" in node.value else "none"
         raise node.fault(f'the schema "{SCHEMA}"', found)
-    place = Node(version, node.source, "version")
+    place = Node(version, "version")
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise place.fault(f"the number {VERSION}", None if "version" in node.value else "none")
     if version > VERSION:
@@ -388,9 +364,7 @@ def _score(node: Node) -> Score:
         key: members[key].text() for key in ("recording", "library") if key in members
     }
     if "figure_height_m" in members:
-        values["figure_height_m"] = members["figure_height_m"].number()
-        if values["figure_height_m"] <= 0:
-            raise members["figure_height_m"].fault("a positive number")
+        values["figure_height_m"] = members["figure_height_m"].positive()
     if "reading" in members:
         options = members["reading"].options()
         values["reading"] = tuple((key, option.text()) for key, option in options.items())

@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from actions_library.importers.imported import Imported, fault, unique_names
+from actions_library.importers.imported import Imported, unique_names
+from laban.faults import Fault
 from smd.character.character import Character, Mesh
 from smd.character.kinematics import forward_kinematics
 from smd.character.roles import BodyPlan, body_plan
 from smd.character.skeleton import Skeleton
+from smd.errors import ImportedFileError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
     IDENTITY_XYZW,
@@ -81,7 +83,8 @@ def adopted_character(
         If the file holds no mesh that its joints move.
     """
     if not imported.meshes:
-        raise fault(imported.path, "", "a character with a mesh", "a skeleton alone")
+        fault = Fault("", "a character with a mesh", "a skeleton alone")
+        raise fault.of(imported.path, ImportedFileError)
     standing = standing_of(imported, plan_of(imported, front=front))
     if _has_ground_root(imported.skeleton, standing):
         return Character(name, imported.skeleton, _with_unique_names(imported.meshes))

@@ -4,11 +4,40 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from actions_library.importers.imported import Animation, Imported, fault
+from actions_library.importers.format import Importer, ImportFormat, ImportOptions
+from actions_library.importers.imported import Animation, Imported
+from laban.faults import Fault, naming
+from smd.errors import CharacterError, ImportedFileError
 
-__all__ = ["SUFFIXES", "Animation", "Imported", "import_file"]
+__all__ = ["FORMATS", "SUFFIXES", "Animation", "Imported", "import_file"]
 
-SUFFIXES = (".bvh", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz")
+
+def _bvh() -> Importer:
+    from actions_library.importers import bvh
+
+    return bvh
+
+
+def _gltf() -> Importer:
+    from actions_library.importers import gltf
+
+    return gltf
+
+
+def _usd() -> Importer:
+    from actions_library.importers import usd
+
+    return usd
+
+
+FORMATS = (
+    ImportFormat("BVH", (".bvh",), _bvh),
+    ImportFormat("glTF", (".glb", ".gltf"), _gltf),
+    ImportFormat("USD", (".usd", ".usda", ".usdc", ".usdz"), _usd, has_skeletons=True),
+)
+"""A file's suffix says which one it has."""
+
+SUFFIXES = tuple(suffix for each in FORMATS for suffix in each.suffixes)
 """Of the files that can be imported."""
 
 
@@ -39,21 +68,22 @@ def import_file(
         If the file is missing, of another format, damaged, or holds no skeleton.
     """
     path = Path(path)
+    with naming(path, ImportedFileError):
+        try:
+            return _read(path, ImportOptions(up, unit_m, skeleton))
+        except CharacterError as error:
+            raise Fault.saying("", str(error)) from error
+
+
+def _read(path: Path, asked: ImportOptions) -> Imported:
+    """Read a file by the importer of its suffix; a fault does not name the file."""
     if not path.is_file():
-        raise fault(path, "", "a file", "none")
+        raise Fault("", "a file", "none")
     suffix = path.suffix.lower()
-    if skeleton is not None and not suffix.startswith(".usd"):
-        raise fault(path, "skeleton", "a USD file to choose one from", suffix or "no suffix")
-    if suffix == ".bvh":
-        from actions_library.importers import bvh
-
-        return bvh.read(path, up=up, unit_m=unit_m)
-    if suffix in (".glb", ".gltf"):
-        from actions_library.importers import gltf
-
-        return gltf.read(path, up=up, unit_m=unit_m)
-    if suffix in (".usd", ".usda", ".usdc", ".usdz"):
-        from actions_library.importers import usd
-
-        return usd.read(path, up=up, unit_m=unit_m, skeleton=skeleton)
-    raise fault(path, "", f"a file of {', '.join(SUFFIXES)}", suffix or "no suffix")
+    found = next((each for each in FORMATS if suffix in each.suffixes), None)
+    if asked.skeleton is not None and not (found and found.has_skeletons):
+        several = " or ".join(each.name for each in FORMATS if each.has_skeletons)
+        raise Fault("skeleton", f"a {several} file to choose one from", suffix or "no suffix")
+    if found is None:
+        raise Fault("", f"a file of {', '.join(SUFFIXES)}", suffix or "no suffix")
+    return found.importer().read(path, asked)

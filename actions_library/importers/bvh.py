@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from actions_library.importers.format import ImportOptions
 from actions_library.importers.imported import (
     DEEPEST,
     MOST_BYTES,
@@ -30,10 +31,10 @@ from actions_library.importers.imported import (
     Imported,
     check_poses,
     checked_unit,
-    fault,
     skeleton_of,
     to_y_up,
 )
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
     IDENTITY_XYZW,
@@ -68,24 +69,24 @@ class _Hierarchy:
     channels: list[list[str]] = field(default_factory=list)
 
 
-def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
+def read(path: Path, asked: ImportOptions) -> Imported:
     """Return the skeleton and the one animation of a BVH file."""
     if path.stat().st_size > MOST_BYTES:
-        raise fault(path, "", f"at most {MOST_BYTES} bytes", path.stat().st_size)
+        raise Fault("", f"at most {MOST_BYTES} bytes", path.stat().st_size)
     lines = _lines(path)
-    tree = _hierarchy(path, lines)
-    values, frame_s = _motion(path, lines, tree)
+    tree = _hierarchy(lines)
+    values, frame_s = _motion(lines, tree)
     offsets = np.array(tree.offsets)
     place = offsets.copy()
     for j, parent in enumerate(tree.parents):
         if parent >= 0:
             place[j] += place[parent]
-    turn = to_y_up(path, up or _guessed_up(tree, place))
+    turn = to_y_up(asked.up or _guessed_up(tree, place))
     place = place @ turn.T
-    unit = checked_unit(path, _guessed_unit(place) if unit_m is None else unit_m)
+    unit = checked_unit(_guessed_unit(place) if asked.unit_m is None else asked.unit_m)
     rest = np.tile(np.eye(4), (len(place), 1, 1))
     rest[:, :3, :3], rest[:, :3, 3] = turn, unit * place
-    skeleton = skeleton_of(path, tree.names, tree.parents, rest, rest)
+    skeleton = skeleton_of(tree.names, tree.parents, rest, rest)
     rotation, translation = _poses(tree, offsets, values)
     roots = [j for j, parent in enumerate(tree.parents) if parent < 0]
     whole = quaternion_from_matrix(turn)
@@ -104,16 +105,16 @@ def _lines(path: Path) -> Lines:
                 return
             if number > _MOST_LINES or len(line) == _LONGEST_LINE:
                 expected = f"at most {_MOST_LINES} lines of {_LONGEST_LINE} characters"
-                raise fault(path, f"line {number}", expected, "more")
+                raise Fault(f"line {number}", expected, "more")
             if not line.isspace():
                 yield number, line.strip()
 
 
-def _hierarchy(path: Path, lines: Lines) -> _Hierarchy:
+def _hierarchy(lines: Lines) -> _Hierarchy:
     """Return the joints that the lines before MOTION name, parents first."""
     number, first = next(lines, (1, ""))
     if first.upper() != "HIERARCHY":
-        raise fault(path, f"line {number}", "HIERARCHY", repr(first[:40]))
+        raise Fault(f"line {number}", "HIERARCHY", repr(first[:40]))
     tree, pending = _Hierarchy(), None
     stack: list[int] = []
     for where, line in _statements(lines):
@@ -121,20 +122,20 @@ def _hierarchy(path: Path, lines: Lines) -> _Hierarchy:
         word = words[0].upper()
         if word == "MOTION":
             if stack:
-                raise fault(path, where, f"}} of {tree.names[stack[-1]]!r}", "MOTION")
+                raise Fault(where, f"}} of {tree.names[stack[-1]]!r}", "MOTION")
             if not tree.names:
-                raise fault(path, where, "ROOT", "no joint")
+                raise Fault(where, "ROOT", "no joint")
             return tree
         if word in ("ROOT", "JOINT") or line.upper().startswith("END SITE"):
             if (word == "ROOT") == bool(stack):
-                raise fault(path, where, "ROOT outside and JOINT inside of braces", line[:60])
+                raise Fault(where, "ROOT outside and JOINT inside of braces", line[:60])
             pending = " ".join(words[1:]) if word != "END" else f"{tree.names[stack[-1]]}_end"
         elif word == "{":
             if pending is None:
-                raise fault(path, where, "ROOT, JOINT or End Site before a brace", "none")
+                raise Fault(where, "ROOT, JOINT or End Site before a brace", "none")
             if len(stack) >= DEEPEST or len(tree.names) >= MOST_JOINTS:
                 expected = f"at most {MOST_JOINTS} joints, {DEEPEST} one below another"
-                raise fault(path, where, expected, "another brace")
+                raise Fault(where, expected, "another brace")
             tree.names.append(pending or f"joint_{len(tree.names)}")
             tree.parents.append(stack[-1] if stack else -1)
             tree.offsets.append([])
@@ -143,17 +144,17 @@ def _hierarchy(path: Path, lines: Lines) -> _Hierarchy:
             pending = None
         elif word == "}":
             if not stack:
-                raise fault(path, where, "as many { as }", "one } more")
+                raise Fault(where, "as many { as }", "one } more")
             if not tree.offsets[stack[-1]]:
-                raise fault(path, where, f"OFFSET of {tree.names[stack[-1]]!r}", "none")
+                raise Fault(where, f"OFFSET of {tree.names[stack[-1]]!r}", "none")
             stack.pop()
         elif word == "OFFSET" and stack:
-            tree.offsets[stack[-1]] = _numbers(path, where, words[1:], 3)
+            tree.offsets[stack[-1]] = _numbers(where, words[1:], 3)
         elif word == "CHANNELS" and stack:
-            tree.channels[stack[-1]] = _channels(path, where, words[1:])
+            tree.channels[stack[-1]] = _channels(where, words[1:])
         else:
-            raise fault(path, where, "ROOT, JOINT, End Site, OFFSET, CHANNELS, { or }", line[:60])
-    raise fault(path, "", "MOTION", "the end of the file")
+            raise Fault(where, "ROOT, JOINT, End Site, OFFSET, CHANNELS, { or }", line[:60])
+    raise Fault("", "MOTION", "the end of the file")
 
 
 def _statements(lines: Lines) -> Iterator[tuple[str, str]]:
@@ -163,53 +164,53 @@ def _statements(lines: Lines) -> Iterator[tuple[str, str]]:
             yield f"line {number}", part
 
 
-def _numbers(path: Path, where: str, words: list[str], count: int) -> list[float]:
+def _numbers(where: str, words: list[str], count: int) -> list[float]:
     try:
         values = [float(word) for word in words if "_" not in word]
     except ValueError:
         values = []
     if len(values) != count or not np.isfinite(values).all():
-        raise fault(path, where, f"{count} finite numbers", " ".join(words)[:60] or "none")
+        raise Fault(where, f"{count} finite numbers", " ".join(words)[:60] or "none")
     return values
 
 
-def _channels(path: Path, where: str, words: list[str]) -> list[str]:
+def _channels(where: str, words: list[str]) -> list[str]:
     count = int(words[0]) if words and re.fullmatch(r"[0-9]{1,2}", words[0]) else -1
     names = [word.capitalize() for word in words[1:]]
     if len(names) != count or not set(names) <= _CHANNELS or len(set(names)) != len(names):
         expected = "a count and as many of Xposition … Zrotation, each once"
-        raise fault(path, where, expected, " ".join(words)[:80] or "none")
+        raise Fault(where, expected, " ".join(words)[:80] or "none")
     return names
 
 
-def _motion(path: Path, lines: Lines, tree: _Hierarchy) -> tuple[FloatArray, float]:
+def _motion(lines: Lines, tree: _Hierarchy) -> tuple[FloatArray, float]:
     """Return the rows of numbers ``(n, channels)`` and the seconds from one to the next."""
-    frames = _said(path, lines, r"Frames\s*:", "Frames: and a count")
+    frames = _said(lines, r"Frames\s*:", "Frames: and a count")
     if frames != int(frames) or frames < 1:
-        raise fault(path, "Frames", "a whole number from 1", f"{frames:g}")
-    check_poses(path, "Frames", frames, len(tree.names))
-    frame_s = _said(path, lines, r"Frame\s+Time\s*:", "Frame Time: and seconds")
+        raise Fault("Frames", "a whole number from 1", f"{frames:g}")
+    check_poses("Frames", frames, len(tree.names))
+    frame_s = _said(lines, r"Frame\s+Time\s*:", "Frame Time: and seconds")
     if not 1e-4 <= frame_s <= 10.0:
-        raise fault(path, "Frame Time", "0.0001 to 10 seconds", f"{frame_s:g}")
+        raise Fault("Frame Time", "0.0001 to 10 seconds", f"{frame_s:g}")
     width = sum(map(len, tree.channels))
-    values = _values(path, lines, int(frames), width).reshape(int(frames), width)
+    values = _values(lines, int(frames), width).reshape(int(frames), width)
     bad = ~np.isfinite(values).all(axis=1)
     if bad.any():
-        raise fault(path, f"frame {int(np.argmax(bad))}", "finite numbers", "one that is not")
+        raise Fault(f"frame {int(np.argmax(bad))}", "finite numbers", "one that is not")
     return values, frame_s
 
 
-def _said(path: Path, lines: Lines, key: str, expected: str) -> float:
+def _said(lines: Lines, key: str, expected: str) -> float:
     """Return the number behind a key, which the next line has to name."""
     number, line = next(lines, (0, ""))
     found = re.fullmatch(key + r"\s*([-+.0-9eE]+)", line, re.IGNORECASE)
     if not found:
         where = f"line {number}" if number else "the end of the file"
-        raise fault(path, where, expected, repr(line[:40]))
-    return _numbers(path, f"line {number}", [found[1]], 1)[0]
+        raise Fault(where, expected, repr(line[:40]))
+    return _numbers(f"line {number}", [found[1]], 1)[0]
 
 
-def _values(path: Path, lines: Lines, frames: int, width: int) -> FloatArray:
+def _values(lines: Lines, frames: int, width: int) -> FloatArray:
     """Return the numbers that follow, if they are as many as frames and channels ask for."""
     parts: list[FloatArray] = []
     total, uneven = 0, ""
@@ -225,11 +226,11 @@ def _values(path: Path, lines: Lines, frames: int, width: int) -> FloatArray:
             parts.append(np.array(words, dtype=np.float64))
         except ValueError as error:
             where = f"MOTION, from line {block[0][0]}"
-            raise fault(path, where, "numbers", str(error)[:80]) from None
+            raise Fault(where, "numbers", str(error)[:80]) from None
     if total != frames * width:
         found = uneven or (f"{total // width} rows" if width else "numbers without a channel")
         more = " or more" if total > frames * width else ""
-        raise fault(path, "MOTION", f"{frames} frames of {width} numbers", found + more)
+        raise Fault("MOTION", f"{frames} frames of {width} numbers", found + more)
     return np.concatenate(parts) if parts else np.empty(0)
 
 

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
+from actions_library.importers.format import ImportOptions
 from actions_library.importers.gltf_animations import read_animations
 from actions_library.importers.gltf_file import GltfFile
 from actions_library.importers.gltf_meshes import read_meshes
@@ -26,27 +27,27 @@ from actions_library.importers.gltf_shapes import read_shapes
 from actions_library.importers.imported import (
     Imported,
     checked_unit,
-    fault,
     skeleton_of,
     to_y_up,
 )
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def read(path: Path, *, up: str | None, unit_m: float | None) -> Imported:
+def read(path: Path, asked: ImportOptions) -> Imported:
     """Return the skeleton, meshes and animations of a glTF file."""
     file = GltfFile(path)
     nodes = read_nodes(file)
     change = np.eye(4)
-    change[:3, :3] = to_y_up(path, up or "y") * checked_unit(
-        path, 1.0 if unit_m is None else unit_m
+    change[:3, :3] = to_y_up(asked.up or "y") * checked_unit(
+        1.0 if asked.unit_m is None else asked.unit_m
     )
     joints = find_joints(file, nodes)
     parents = joint_parents(nodes, joints)
     rest = change @ nodes.rest()
     bind_world, inverse_binds = _binds(file, joints, parents, rest[joints])
     names = [str(file.node(node).get("name") or "") for node in joints]
-    skeleton = skeleton_of(path, names, parents, rest[joints], bind_world)
+    skeleton = skeleton_of(names, parents, rest[joints], bind_world)
     shapes = read_shapes(file)
     meshes, left_out = read_meshes(file, nodes.parent, joints, bind_world, inverse_binds, rest)
     animations, more = read_animations(file, nodes, shapes, joints, parents, change)
@@ -70,12 +71,12 @@ def _binds(
             where = f"skins[{i}].inverseBindMatrices"
             flat = file.accessor(skin["inverseBindMatrices"], where)
             if flat.shape[1:] != (16,) or len(flat) < count:
-                raise fault(file.path, where, f"{count} matrices", flat.shape)
+                raise Fault(where, f"{count} matrices", flat.shape)
             inverses.append(np.swapaxes(flat[:count].reshape(-1, 4, 4), -1, -2))
         else:
             inverses.append(np.tile(np.eye(4), (count, 1, 1)))
         if np.abs(np.linalg.det(inverses[-1])).min() < 1e-18:
-            raise fault(file.path, f"skins[{i}]", "matrices with an inverse", "one without")
+            raise Fault(f"skins[{i}]", "matrices with an inverse", "one without")
     if not inverses:
         return rest, inverses
     largest = max(range(len(inverses)), key=lambda i: len(inverses[i]))

@@ -15,9 +15,9 @@ from actions_library.importers.imported import (
     MOST_ANIMATIONS,
     Animation,
     check_poses,
-    fault,
     rigid,
 )
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import normalized, sign_continuous, slerp
 
@@ -63,7 +63,7 @@ def read_animations(
     notes: list[str] = []
     poses, count = 0, file.count("animations")
     if count > MOST_ANIMATIONS:
-        raise fault(file.path, "animations", f"at most {MOST_ANIMATIONS}", count)
+        raise Fault("animations", f"at most {MOST_ANIMATIONS}", count)
     for i in range(count):
         where = f"animations[{i}]"
         name = str(file.item("animations", i).get("name") or f"animation_{i}")
@@ -74,7 +74,7 @@ def read_animations(
         start_s, end_s = min(t.times[0] for t in tracks), max(t.times[-1] for t in tracks)
         rate_hz = _rate_hz([track.times for track in tracks])
         frames = max(np.round((end_s - start_s) * rate_hz), 1.0) + 1.0
-        check_poses(file.path, where, frames, len(chain) + len(shapes.names), poses)
+        check_poses(where, frames, len(chain) + len(shapes.names), poses)
         poses += int(frames) * (len(chain) + len(shapes.names))
         at_s = np.minimum(start_s + np.arange(int(frames)) / rate_hz, end_s)
         local = _moved(nodes, chain, tracks, at_s)
@@ -96,7 +96,7 @@ def _tracks(file: GltfFile, where: str, i: int, chain: set[int], shapes: Shapes)
             continue
         node = file.index(target["node"], "nodes", where)
         if (node, path) in found:
-            raise fault(file.path, f"{where}, node {node}", f"one channel of {path}", "two")
+            raise Fault(f"{where}, node {node}", f"one channel of {path}", "two")
         if path == "weights" and node in shapes.columns:
             own = shapes.columns[node]
             found[node, path] = _track(file, where, sampler, node, path, own.stop - own.start)
@@ -111,7 +111,7 @@ def _track(
     """Return a channel whose values are so wide, its keys checked."""
     manner = sampler.get("interpolation", "LINEAR")
     if manner not in ("LINEAR", "STEP", "CUBICSPLINE"):
-        raise fault(file.path, where, "LINEAR, STEP or CUBICSPLINE", repr(manner)[:40])
+        raise Fault(where, "LINEAR, STEP or CUBICSPLINE", repr(manner)[:40])
     times = file.accessor(sampler.get("input"), f"{where}: input")[:, 0]
     values = file.accessor(sampler.get("output"), f"{where}: output")
     place = f"{where}, node {node}, {path}"
@@ -120,12 +120,12 @@ def _track(
     each = 3 if manner == "CUBICSPLINE" else 1
     if values.shape != (each * len(times), width) or not len(times):
         expected = f"{each * len(times)} values of {width} numbers"
-        raise fault(file.path, place, expected, values.shape)
+        raise Fault(place, expected, values.shape)
     if not (np.isfinite(times).all() and np.isfinite(values).all()):
-        raise fault(file.path, place, "finite keys", "one that is not")
+        raise Fault(place, "finite keys", "one that is not")
     if (np.diff(times) <= 0.0).any():
         bad = float(times[int(np.argmax(np.diff(times) <= 0.0)) + 1])
-        raise fault(file.path, f"{where}, node {node}", "times that increase", f"{bad:g} s")
+        raise Fault(f"{where}, node {node}", "times that increase", f"{bad:g} s")
     return _Track(node, path, times, values, manner)
 
 
@@ -163,7 +163,7 @@ def _posed(
     for first in range(0, len(local["scale"]), step):
         block = {part: values[first : first + step] for part, values in local.items()}
         world = change @ nodes.world(chain, block)[:, at]
-        blocks.append(rigid(file.path, where, world, parents))
+        blocks.append(rigid(where, world, parents))
     rotation = np.concatenate([q for q, _ in blocks])
     translation = np.concatenate([t for _, t in blocks])
     return sign_continuous(rotation) if len(blocks) > 1 else rotation, translation

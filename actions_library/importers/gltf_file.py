@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 import struct
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
@@ -12,7 +11,9 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from actions_library.importers.imported import MOST_BYTES, fault
+from actions_library.importers.imported import MOST_BYTES
+from laban.faults import Fault
+from laban.json_node import parse_json
 from smd.geometry.arrays import FloatArray
 
 _COMPONENTS = {
@@ -45,14 +46,14 @@ class GltfFile:
 
     Raises
     ------
-    ImportedFileError
+    Fault
         If it is no glTF 2.0, or, when something is asked for, if that is damaged.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         if path.stat().st_size > MOST_BYTES:
-            raise fault(path, "", f"at most {MOST_BYTES} bytes", path.stat().st_size)
+            raise Fault("", f"at most {MOST_BYTES} bytes", path.stat().st_size)
         data = path.read_bytes()
         self._binary: bytes | None = None
         if data[:4] == b"glTF" or path.suffix.lower() == ".glb":
@@ -61,63 +62,58 @@ class GltfFile:
         version = self.document.get("asset", {})
         version = version.get("version") if isinstance(version, dict) else None
         if version is None or not str(version).startswith("2."):
-            raise fault(path, "asset.version", "2.0", repr(version)[:40])
+            raise Fault("asset.version", "2.0", repr(version)[:40])
         required = self.document.get("extensionsRequired", [])
         for name in map(str, required if isinstance(required, list) else [required]):
             if name not in _SUPPORTED and not name.startswith("KHR_materials_"):
                 expected = "no extension that changes how a file is read"
-                raise fault(path, "extensionsRequired", expected, repr(name)[:60])
+                raise Fault("extensionsRequired", expected, repr(name)[:60])
         if self.count("nodes") > _MOST_NODES:
-            raise fault(path, "nodes", f"at most {_MOST_NODES}", self.count("nodes"))
+            raise Fault("nodes", f"at most {_MOST_NODES}", self.count("nodes"))
         self._buffers: dict[int, bytes] = {}
         self._work = 0
 
     def _chunks(self, data: bytes) -> bytes:
         """Return the JSON of a GLB, and keep its binary chunk."""
         if len(data) < 20 or data[:4] != b"glTF":
-            raise fault(self.path, "", "glTF at the start of a GLB", repr(data[:4]))
+            raise Fault("", "glTF at the start of a GLB", repr(data[:4]))
         version, length = struct.unpack_from("<II", data, 4)
         if version != 2 or length > len(data):
-            raise fault(self.path, "header", f"version 2, {length} bytes", f"{len(data)} bytes")
+            raise Fault("header", f"version 2, {length} bytes", f"{len(data)} bytes")
         parts: dict[int, bytes] = {}
         at = 12
         while at + 8 <= length:
             size, kind = struct.unpack_from("<II", data, at)
             if at + 8 + size > length:
-                raise fault(self.path, f"chunk at byte {at}", f"{size} bytes", length - at - 8)
+                raise Fault(f"chunk at byte {at}", f"{size} bytes", length - at - 8)
             parts.setdefault(kind, data[at + 8 : at + 8 + size])
             at += 8 + size
         if _JSON not in parts:
-            raise fault(self.path, "", "a JSON chunk", "none")
+            raise Fault("", "a JSON chunk", "none")
         self._binary = parts.get(_BIN)
         return parts[_JSON]
 
     def _parsed(self, data: bytes) -> dict[str, Any]:
         items = sum(data.count(mark) for mark in (b",", b"{", b"["))
         if items > _MOST_ITEMS:
-            raise fault(self.path, "", f"JSON of at most {_MOST_ITEMS} items", items)
-        try:
-            document = json.loads(data.decode("utf-8-sig"))
-        except RecursionError:
-            raise fault(self.path, "", "JSON", "JSON nested too deeply") from None
-        except ValueError as error:
-            raise fault(self.path, "", "JSON", str(error)[:80]) from None
+            raise Fault("", f"JSON of at most {_MOST_ITEMS} items", items)
+        document = parse_json(data).value
         if not isinstance(document, dict):
-            raise fault(self.path, "", "a JSON object", type(document).__name__)
+            raise Fault("", "a JSON object", type(document).__name__)
         return document
 
     def count(self, kind: str) -> int:
         """Return how many items of a kind there are."""
         items = self.document.get(kind, [])
         if not isinstance(items, list):
-            raise fault(self.path, kind, "a list", type(items).__name__)
+            raise Fault(kind, "a list", type(items).__name__)
         return len(items)
 
     def item(self, kind: str, i: Any) -> dict[str, Any]:
         """Return one item of a kind."""
         found = self.document[kind][self.index(i, kind, kind)]
         if not isinstance(found, dict):
-            raise fault(self.path, f"{kind}[{i}]", "an object", type(found).__name__)
+            raise Fault(f"{kind}[{i}]", "an object", type(found).__name__)
         return found
 
     def node(self, i: int) -> dict[str, Any]:
@@ -128,14 +124,14 @@ class GltfFile:
         """Return an index of an item of a kind, if it is one."""
         count = self.count(kind)
         if type(i) is not int or not 0 <= i < count:
-            raise fault(self.path, where, f"an index of {kind} below {count}", repr(i)[:40])
+            raise Fault(where, f"an index of {kind} below {count}", repr(i)[:40])
         return i
 
     def indices(self, item: dict[str, Any], key: str, kind: str, where: str) -> list[int]:
         """Return a list of indices; none where the key is absent."""
         found = item.get(key, [])
         if not isinstance(found, list):
-            raise fault(self.path, f"{where}.{key}", "a list", type(found).__name__)
+            raise Fault(f"{where}.{key}", "a list", type(found).__name__)
         return [self.index(i, kind, f"{where}.{key}") for i in found]
 
     def numbers(self, value: Any, count: int, where: str) -> FloatArray:
@@ -147,7 +143,7 @@ class GltfFile:
         except OverflowError:  # a whole number beyond the largest float
             array = np.full(count, np.inf)
         if not np.isfinite(array).all():
-            raise fault(self.path, where, f"{count} finite numbers", repr(value)[:60])
+            raise Fault(where, f"{count} finite numbers", repr(value)[:60])
         return array
 
     def channels(self, i: int) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
@@ -155,13 +151,13 @@ class GltfFile:
         animation, where = self.item("animations", i), f"animations[{i}]"
         samplers, channels = animation.get("samplers", []), animation.get("channels", [])
         if not isinstance(samplers, list) or not isinstance(channels, list):
-            raise fault(self.path, where, "lists of samplers and channels", "something else")
+            raise Fault(where, "lists of samplers and channels", "something else")
         for channel in channels:
             at: Any = channel.get("sampler") if isinstance(channel, dict) else None
             good = type(at) is int and 0 <= at < len(samplers) and isinstance(samplers[at], dict)
             target = channel.get("target") if good else None
             if not isinstance(target, dict):
-                raise fault(self.path, where, "channels with a sampler and a target", repr(at)[:40])
+                raise Fault(where, "channels with a sampler and a target", repr(at)[:40])
             yield samplers[at], {**target, "path": str(target.get("path"))}
 
     def accessor(self, i: Any, where: str) -> FloatArray:
@@ -172,14 +168,14 @@ class GltfFile:
         # As text, since a key may be anything, a list too.
         kind, component = str(item.get("type")), str(item.get("componentType"))
         if kind not in _WIDTHS or component not in _COMPONENTS:
-            raise fault(self.path, where, "a known type", f"{kind!r} of {component!r}"[:60])
+            raise Fault(where, "a known type", f"{kind!r} of {component!r}"[:60])
         width, dtype = _WIDTHS[kind], np.dtype(_COMPONENTS[component])
         if count * width > _MOST_VALUES:
-            raise fault(self.path, where, f"at most {_MOST_VALUES} numbers", count * width)
+            raise Fault(where, f"at most {_MOST_VALUES} numbers", count * width)
         # A small file may ask for the same numbers again and again.
         self._work += count * width + _WORK_PER_ACCESSOR
         if self._work > _MOST_WORK:
-            raise fault(self.path, where, f"at most {_MOST_WORK} numbers in all", "more")
+            raise Fault(where, f"at most {_MOST_WORK} numbers in all", "more")
         if "bufferView" in item:
             values = self._values(item["bufferView"], item, count, width, dtype, where).copy()
         else:
@@ -195,17 +191,17 @@ class GltfFile:
         where = f"{where}.sparse"
         parts = [sparse.get(key) if isinstance(sparse, dict) else None for key in _SPARSE]
         if not all(isinstance(part, dict) for part in parts):
-            raise fault(self.path, where, "indices and values", "something else")
+            raise Fault(where, "indices and values", "something else")
         at, new = parts
         count = self._whole(sparse, "count", where)
         component = str(at.get("componentType"))  # type: ignore[union-attr]
         if count > len(values) or component not in ("5121", "5123", "5125"):
-            raise fault(self.path, where, f"at most {len(values)} unsigned indices", count)
+            raise Fault(where, f"at most {len(values)} unsigned indices", count)
         kind = np.dtype(_COMPONENTS[component])
         view = at.get("bufferView"), new.get("bufferView")  # type: ignore[union-attr]
         rows = self._values(view[0], at or {}, count, 1, kind, where)[:, 0].astype(np.int64)
         if len(rows) and rows.max() >= len(values):
-            raise fault(self.path, where, f"indices below {len(values)}", int(rows.max()))
+            raise Fault(where, f"indices below {len(values)}", int(rows.max()))
         values[rows] = self._values(view[1], new or {}, count, values.shape[1], dtype, where)
 
     def _values(
@@ -224,7 +220,7 @@ class GltfFile:
         stride = stride or each
         end = offset + (stride * (count - 1) + each if count else 0)
         if stride < each or end > len(data):
-            raise fault(self.path, where, f"{end} bytes in its buffer view", len(data))
+            raise Fault(where, f"{end} bytes in its buffer view", len(data))
         return np.ndarray((count, width), dtype, data, offset, (stride, dtype.itemsize))
 
     def view(self, i: Any, where: str) -> tuple[bytes | memoryview, int]:
@@ -235,13 +231,13 @@ class GltfFile:
         offset = self._whole(item, "byteOffset", where, 0)
         length = self._whole(item, "byteLength", where)
         if offset + length > len(data):
-            raise fault(self.path, where, f"{offset + length} bytes in its buffer", len(data))
+            raise Fault(where, f"{offset + length} bytes in its buffer", len(data))
         return memoryview(data)[offset : offset + length], self._whole(item, "byteStride", where, 0)
 
     def _whole(self, item: dict[str, Any], key: str, where: str, default: int | None = None) -> int:
         value = item.get(key, default)
         if type(value) is not int or value < 0:
-            raise fault(self.path, f"{where}.{key}", "a whole number from 0", repr(value)[:40])
+            raise Fault(f"{where}.{key}", "a whole number from 0", repr(value)[:40])
         return value
 
     def _buffer(self, i: Any, where: str) -> bytes:
@@ -254,11 +250,11 @@ class GltfFile:
             elif at == 0 and self._binary is not None:
                 self._buffers[at] = self._binary
             else:
-                raise fault(self.path, f"buffers[{at}]", "a uri or a binary chunk", "neither")
+                raise Fault(f"buffers[{at}]", "a uri or a binary chunk", "neither")
             length = self._whole(item, "byteLength", f"buffers[{at}]")
             if length > len(self._buffers[at]):
                 found = len(self._buffers[at])
-                raise fault(self.path, f"buffers[{at}]", f"{length} bytes", found)
+                raise Fault(f"buffers[{at}]", f"{length} bytes", found)
         return self._buffers[at]
 
     def content(self, uri: Any, where: str, *, needed: bool = True) -> bytes | None:
@@ -267,15 +263,15 @@ class GltfFile:
         None where that file is missing and not needed.
         """
         if not isinstance(uri, str):
-            raise fault(self.path, where, "text", repr(uri)[:40])
+            raise Fault(where, "text", repr(uri)[:40])
         if uri.startswith("data:"):
             head, comma, text = uri.partition(",")
             if not comma or not head.endswith(";base64"):
-                raise fault(self.path, where, "data in base64", head[:60])
+                raise Fault(where, "data in base64", head[:60])
             try:
                 return base64.b64decode(text, validate=True)
             except ValueError as error:
-                raise fault(self.path, where, "base64", str(error)) from None
+                raise Fault(where, "base64", str(error)) from None
         name = unquote(uri)
         parts = PurePosixPath(name).parts
         folder = self.path.parent.resolve()
@@ -284,19 +280,19 @@ class GltfFile:
             target = folder.joinpath(*parts).resolve()
             there = target.is_file()
         except (OSError, ValueError):  # a name too long, or with a zero byte
-            raise fault(self.path, where, "a file's name", repr(uri)[:80]) from None
+            raise Fault(where, "a file's name", repr(uri)[:80]) from None
         if outside or not target.is_relative_to(folder):
-            raise fault(self.path, where, "a file in the same folder", repr(uri)[:80])
+            raise Fault(where, "a file in the same folder", repr(uri)[:80])
         if not there:
             if not needed:
                 return None
-            raise fault(self.path, where, "a file", f"none: {name[:80]}")
+            raise Fault(where, "a file", f"none: {name[:80]}")
         if target.stat().st_size > MOST_BYTES:
-            raise fault(self.path, where, f"at most {MOST_BYTES} bytes", target.stat().st_size)
+            raise Fault(where, f"at most {MOST_BYTES} bytes", target.stat().st_size)
         try:
             return target.read_bytes()
         except OSError as error:
-            raise fault(self.path, where, "a file to read", error.strerror) from None
+            raise Fault(where, "a file to read", error.strerror) from None
 
 
 _SPARSE = ("indices", "values")

@@ -16,10 +16,10 @@ from actions_library.importers.imported import (
     MOST_POINTS,
     MOST_TRIANGLES,
     bound,
-    fault,
     strongest,
     unique_names,
 )
+from laban.faults import Fault
 from smd.character.character import Mesh
 from smd.geometry.arrays import FloatArray, IntArray
 
@@ -73,7 +73,7 @@ def read_meshes(
             continue
         primitives = mesh.get("primitives", [])
         if not isinstance(primitives, list):
-            raise fault(file.path, f"meshes[{item['mesh']}]", "a list of primitives", "none")
+            raise Fault(f"meshes[{item['mesh']}]", "a list of primitives", "none")
         for k, primitive in enumerate(primitives):
             where = f"meshes[{item['mesh']}].primitives[{k}]"
             geometry = _geometry(file, primitive, where)
@@ -83,13 +83,13 @@ def read_meshes(
             points_so_far, faces_so_far = points_so_far + len(points), faces_so_far + len(triangles)
             if points_so_far > MOST_POINTS or faces_so_far > MOST_TRIANGLES:
                 most = f"at most {MOST_POINTS} points and {MOST_TRIANGLES} triangles in all"
-                raise fault(file.path, where, most, f"{points_so_far} and {faces_so_far}")
+                raise Fault(where, most, f"{points_so_far} and {faces_so_far}")
             if "skin" in item:
                 skin = file.index(item["skin"], "skins", f"nodes[{node}]")
                 indices, weights = _influences(file, primitive, len(points), where)
                 own = [at_of[j] for j in file.item("skins", skin)["joints"]]
                 if indices.max(initial=0) >= len(own):
-                    raise fault(file.path, where, f"joints below {len(own)}", indices.max())
+                    raise Fault(where, f"joints below {len(own)}", indices.max())
                 matrices = bind[own] @ inverse_binds[skin]
                 points = bound(points, weights, indices, matrices)
                 indices = np.asarray(own, dtype=np.int64)[indices]
@@ -167,18 +167,18 @@ def _encoded(linear: FloatArray) -> FloatArray:
 def _geometry(file: GltfFile, primitive: Any, where: str) -> tuple[FloatArray, IntArray] | None:
     """Return the points and triangles of a primitive; None where it draws lines or points."""
     if not isinstance(primitive, dict) or not isinstance(primitive.get("attributes"), dict):
-        raise fault(file.path, where, "attributes", "none")
+        raise Fault(where, "attributes", "none")
     if primitive.get("mode", 4) not in (4, 5, 6):
         return None
     points = file.accessor(primitive["attributes"].get("POSITION"), where)
     if points.shape[1] != 3 or not np.isfinite(points).all() or not len(points):
-        raise fault(file.path, where, "finite points", "none, or some that are not")
+        raise Fault(where, "finite points", "none, or some that are not")
     if "indices" in primitive:
         order = file.accessor(primitive["indices"], where)[:, 0].astype(np.int64)
     else:
         order = np.arange(len(points))
     if len(order) < 3 or order.max() >= len(points):
-        raise fault(file.path, where, f"indices below {len(points)}", order.max(initial=0))
+        raise Fault(where, f"indices below {len(points)}", order.max(initial=0))
     mode = primitive.get("mode", 4)
     if mode == 4:
         return points, order[: len(order) // 3 * 3].reshape(-1, 3)
@@ -201,10 +201,10 @@ def _influences(
         indices.append(file.accessor(attributes[f"JOINTS_{k}"], where))
         weights.append(file.accessor(attributes.get(f"WEIGHTS_{k}"), where))
     if not indices:
-        raise fault(file.path, where, "JOINTS_0 and WEIGHTS_0", "none")
+        raise Fault(where, "JOINTS_0 and WEIGHTS_0", "none")
     all_indices, all_weights = np.hstack(indices).astype(np.int64), np.hstack(weights)
     if all_indices.shape != all_weights.shape or len(all_indices) != count:
-        raise fault(file.path, where, f"joints and weights of {count} points", len(all_indices))
+        raise Fault(where, f"joints and weights of {count} points", len(all_indices))
     # Some exporters divide by a sum of zero: such a point goes with its first joint.
     weights_01 = np.clip(np.nan_to_num(all_weights, posinf=0.0, neginf=0.0), 0.0, 1.0)
     return strongest(all_indices, weights_01)
@@ -237,7 +237,7 @@ def _colors(
         return plain
     uv = file.accessor(primitive["attributes"][key], where)
     if len(uv) <= triangles.max() or not np.isfinite(uv).all():
-        raise fault(file.path, where, "a texture place for each point", len(uv))
+        raise Fault(where, "a texture place for each point", len(uv))
     middle = np.mod(uv[triangles].mean(axis=1), 1.0)
     row = np.minimum((middle[:, 1] * len(pixels)).astype(int), len(pixels) - 1)
     column = np.minimum((middle[:, 0] * pixels.shape[1]).astype(int), pixels.shape[1] - 1)
@@ -274,13 +274,13 @@ class _Pictures:
                 warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # ours is below
                 image = Image.open(io.BytesIO(data), formats=_FORMATS)
         except (OSError, Image.DecompressionBombError):
-            raise fault(self.file.path, where, f"a picture, {_FORMATS}", "another") from None
+            raise Fault(where, f"a picture, {_FORMATS}", "another") from None
         with image:
             size = image.width * image.height
             self._size += size
             if size > _MOST_PIXELS or self._size > _MOST_PIXELS_IN_ALL:
                 most = f"at most {_MOST_PIXELS} pixels, {_MOST_PIXELS_IN_ALL} in all"
-                raise fault(self.file.path, where, most, f"{size}, {self._size}")
+                raise Fault(where, most, f"{size}, {self._size}")
             try:
                 image.draft("RGB", (_SIDE, _SIDE))
                 small = image.convert("RGB")
@@ -294,5 +294,5 @@ class _Pictures:
                 zlib.error,
                 MemoryError,
             ) as error:
-                raise fault(self.file.path, where, "a whole picture", str(error)[:80]) from None
+                raise Fault(where, "a whole picture", str(error)[:80]) from None
         return np.asarray(small)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from actions_library.importers.gltf_file import GltfFile
-from actions_library.importers.imported import MOST_JOINTS, fault, rigid
+from actions_library.importers.imported import MOST_JOINTS, rigid
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import matrix_from_quaternion, normalized
 
@@ -80,14 +81,14 @@ def read_nodes(file: GltfFile) -> Nodes:
         children.append(file.indices(file.node(i), "children", "nodes", f"nodes[{i}]"))
         for child in children[i]:
             if parent[child] >= 0 or child == i:
-                raise fault(file.path, f"nodes[{i}]", "a tree", f"node {child} twice in it")
+                raise Fault(f"nodes[{i}]", "a tree", f"node {child} twice in it")
             parent[child] = i
     order = [i for i in range(count) if parent[i] < 0]
     for node in order:  # grows while it is gone through
         order += children[node]
     if len(order) != count:
         inside = min(set(range(count)) - set(order))
-        raise fault(file.path, f"nodes[{inside}]", "a tree", "a cycle")
+        raise Fault(f"nodes[{inside}]", "a tree", "a cycle")
     each = [_local(file, i) for i in range(count)]
     local = {
         part: np.array([own[part] for own in each]).reshape(count, size)
@@ -100,7 +101,7 @@ def _local(file: GltfFile, i: int) -> dict[str, FloatArray]:
     node, where = file.node(i), f"nodes[{i}]"
     if "matrix" in node:
         matrix = file.numbers(node["matrix"], 16, f"{where}.matrix").reshape(4, 4).T
-        rotation, translation = rigid(file.path, where, matrix[None], [-1])
+        rotation, translation = rigid(where, matrix[None], [-1])
         scale = np.linalg.norm(matrix[:3, :3], axis=0)
         if np.linalg.det(matrix[:3, :3]) < 0.0:
             scale = -scale
@@ -122,7 +123,7 @@ def find_joints(file: GltfFile, nodes: Nodes) -> list[int]:
         found = file.indices(file.item("skins", i), "joints", "nodes", f"skins[{i}]")
         if len(set(found)) != len(found) or not found:
             expected, what = "nodes, each once", "one twice" if found else "none"
-            raise fault(file.path, f"skins[{i}].joints", expected, what)
+            raise Fault(f"skins[{i}].joints", expected, what)
         wanted |= set(found)
     if not wanted:
         for i in range(file.count("animations")):
@@ -133,9 +134,9 @@ def find_joints(file: GltfFile, nodes: Nodes) -> list[int]:
             if nodes.parent[node] in wanted and "mesh" not in file.node(node):
                 wanted.add(node)
     if not wanted:
-        raise fault(file.path, "", "a skin or an animation of nodes", "neither")
+        raise Fault("", "a skin or an animation of nodes", "neither")
     if len(wanted) > MOST_JOINTS:
-        raise fault(file.path, "", f"at most {MOST_JOINTS} joints", len(wanted))
+        raise Fault("", f"at most {MOST_JOINTS} joints", len(wanted))
     return [node for node in nodes.order if node in wanted]
 
 

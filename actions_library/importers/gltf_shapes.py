@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from actions_library.importers.gltf_file import GltfFile
-from actions_library.importers.imported import fault, unique_names
+from actions_library.importers.imported import unique_names
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 _MOST_SHAPES = 4096
@@ -44,7 +45,7 @@ def read_shapes(file: GltfFile) -> Shapes:
         if not count:
             continue
         if len(names) + count > _MOST_SHAPES:
-            raise fault(file.path, where, f"at most {_MOST_SHAPES} morph targets", "more")
+            raise Fault(where, f"at most {_MOST_SHAPES} morph targets", "more")
         columns[node] = slice(len(names), len(names) + count)
         weights = item.get("weights", mesh.get("weights", [0.0] * count))
         rest += file.numbers(weights, count, f"{where}.weights").tolist()
@@ -59,7 +60,7 @@ def _targets(file: GltfFile, mesh: dict[str, object], where: str) -> int:
     targets = [p.get("targets", []) if isinstance(p, dict) else [] for p in found]
     counts = {len(t) if isinstance(t, list) else -1 for t in targets}
     if len(counts) > 1 or -1 in counts:
-        raise fault(file.path, where, "as many targets in each primitive", sorted(counts))
+        raise Fault(where, "as many targets in each primitive", sorted(counts))
     return counts.pop() if counts else 0
 
 

@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from actions_library.naming import numbered
+from laban.faults import Fault, printable
 from smd.character.character import MAX_INFLUENCES, Mesh
 from smd.character.roles import body_plan
 from smd.character.skeleton import Skeleton
-from smd.errors import CharacterError, ImportedFileError
+from smd.errors import ImportedFileError
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import (
     inverse,
@@ -103,7 +104,8 @@ class Imported:
         if len(named) == 1:
             return named[0]
         known = ", ".join(a.name for a in self.animations) or "no animation"
-        raise fault(self.path, "clip", f"one of {known}", "none given" if name is None else name)
+        found = "none given" if name is None else name
+        raise Fault("clip", f"one of {known}", found).of(self.path, ImportedFileError)
 
     def part(self, animation: Animation, start_s: float | None, end_s: float | None) -> Animation:
         """Return the part of an animation between two times, at least two frames.
@@ -119,7 +121,8 @@ class Imported:
         if final - first < 1:
             span = f"{first / rate_hz:.2f} to {final / rate_hz:.2f} s"
             within = f"a start before an end within {animation.duration_s:.2f} s"
-            raise fault(self.path, f"clip {animation.name!r}", within, span)
+            bad = Fault(f"clip {animation.name!r}", within, span)
+            raise bad.of(self.path, ImportedFileError)
         rows = slice(first, final + 1)
         weights = animation.shape_weights
         return replace(
@@ -128,17 +131,6 @@ class Imported:
             translation_m=animation.translation_m[rows],
             shape_weights=None if weights is None else weights[rows],
         )
-
-
-def fault(path: Path, place: str, expected: str, found: object) -> ImportedFileError:
-    """Return the error for a file: where in it, what was expected, what was found."""
-    where = f"{path}: {place}: " if place else f"{path}: "
-    return ImportedFileError(f"{where}{printable(f'expected {expected}, found {found}')}")
-
-
-def printable(text: str) -> str:
-    """Return text on one line, what cannot be shown as underscores."""
-    return "".join(c if c.isprintable() else "_" for c in text)
 
 
 def unique_names(names: Sequence[str], without: str = "joint") -> tuple[str, ...]:
@@ -154,24 +146,22 @@ def depth_of(parents: Sequence[int]) -> int:
     return max(depths, default=0)
 
 
-def check_poses(path: Path, place: str, frames: float, joints: int, before: int = 0) -> None:
+def check_poses(place: str, frames: float, joints: int, before: int = 0) -> None:
     """Refuse an animation of so many frames, where so many poses of joints came before it.
 
     Raises
     ------
-    ImportedFileError
+    Fault
         If there are too many frames, or too many poses in all.
     """
     if not frames <= MOST_FRAMES:
-        raise fault(path, place, f"at most {MOST_FRAMES} frames", f"{frames:.6g}")
+        raise Fault(place, f"at most {MOST_FRAMES} frames", f"{frames:.6g}")
     poses = before + int(frames) * joints
     if poses > MOST_POSES:
-        raise fault(path, place, f"at most {MOST_POSES} frames times joints", poses)
+        raise Fault(place, f"at most {MOST_POSES} frames times joints", poses)
 
 
-def rigid(
-    path: Path, place: str, world: FloatArray, parents: Sequence[int]
-) -> tuple[FloatArray, FloatArray]:
+def rigid(place: str, world: FloatArray, parents: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     """Return local rotations ``(…, j, 4)`` and translations ``(…, j, 3)`` of joints in the world.
 
     A joint's scale is left out, but not what it does to the places of those below it.
@@ -183,21 +173,21 @@ def rigid(
 
     Raises
     ------
-    ImportedFileError
+    Fault
         If a matrix is not finite, or scales an axis to nothing.
     """
     if not np.isfinite(world).all():
-        raise fault(path, place, "finite transforms", "one that is not")
+        raise Fault(place, "finite transforms", "one that is not")
     axes = world[..., :3, :3]
     length = np.linalg.norm(axes, axis=-2, keepdims=True)
     if length.size and length.min() < 1e-9:
         joint = int(np.argwhere(length[..., 0, :].min(axis=-1) < 1e-9)[0][-1])
-        raise fault(path, place, "scales above zero", f"zero at joint {joint}")
+        raise Fault(place, "scales above zero", f"zero at joint {joint}")
     axes = axes / length
     volume = np.linalg.det(axes)
     if volume.size and np.abs(volume).min() < 1e-6:
         joint = int(np.argwhere(np.abs(volume) < 1e-6)[0][-1])
-        raise fault(path, place, "axes that span space", f"flat ones at joint {joint}")
+        raise Fault(place, "axes that span space", f"flat ones at joint {joint}")
     mirrored = volume < 0.0  # a negative scale: of the file, not of the pose
     axes = np.where(mirrored[..., None, None], -axes, axes)
     rotation = quaternion_from_matrix(axes)
@@ -214,7 +204,6 @@ def rigid(
 
 
 def skeleton_of(
-    path: Path,
     names: Sequence[str],
     parents: Sequence[int],
     rest_world: FloatArray,
@@ -222,27 +211,24 @@ def skeleton_of(
 ) -> Skeleton:
     """Return the skeleton of joints in the world, ``(j, 4, 4)`` at rest and when bound."""
     if not names:
-        raise fault(path, "", "a skeleton", "no joint")
+        raise Fault("", "a skeleton", "no joint")
     if len(names) > MOST_JOINTS:
-        raise fault(path, "", f"at most {MOST_JOINTS} joints", len(names))
+        raise Fault("", f"at most {MOST_JOINTS} joints", len(names))
     if depth_of(parents) > DEEPEST:
-        raise fault(path, "", f"at most {DEEPEST} joints one below another", depth_of(parents))
-    rotation, translation = rigid(path, "rest pose", rest_world, parents)
+        raise Fault("", f"at most {DEEPEST} joints one below another", depth_of(parents))
+    rotation, translation = rigid("rest pose", rest_world, parents)
     # Bind poses keep no scale either: points are stored in the size they have at rest.
-    bind_q, bind_t = rigid(path, "bind pose", bind_world, [-1] * len(names))
+    bind_q, bind_t = rigid("bind pose", bind_world, [-1] * len(names))
     bind = np.tile(np.eye(4), (len(names), 1, 1))
     bind[:, :3, :3], bind[:, :3, 3] = matrix_from_quaternion(bind_q), bind_t
-    try:
-        return Skeleton(
-            joints=unique_names(names),
-            parents=np.asarray(parents),
-            rest_rotation_xyzw=rotation,
-            rest_translation_m=translation,
-            world_from_bind=bind,
-            roles=body_plan(unique_names(names), parents, rest_world[:, :3, 3]).roles,
-        )
-    except CharacterError as error:
-        raise ImportedFileError(f"{path}: {error}") from error
+    return Skeleton(
+        joints=unique_names(names),
+        parents=np.asarray(parents),
+        rest_rotation_xyzw=rotation,
+        rest_translation_m=translation,
+        world_from_bind=bind,
+        roles=body_plan(unique_names(names), parents, rest_world[:, :3, 3]).roles,
+    )
 
 
 def strongest(indices: IntArray, weights: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -282,10 +268,10 @@ AXIS = {
 }
 
 
-def to_y_up(path: Path, up: str) -> FloatArray:
+def to_y_up(up: str) -> FloatArray:
     """Return the rotation ``(3, 3)`` that takes a file's up axis to +Y, the shortest way."""
     if up not in AXIS:
-        raise fault(path, "up", f"one of {', '.join(AXIS)}", repr(up))
+        raise Fault("up", f"one of {', '.join(AXIS)}", repr(up))
     axis = AXIS[up]
     if axis[1] < 0.0:
         return np.diag([1.0, -1.0, -1.0])
@@ -296,8 +282,8 @@ def to_y_up(path: Path, up: str) -> FloatArray:
     return np.eye(3) + turned + turned @ turned / (1.0 + axis[1])
 
 
-def checked_unit(path: Path, unit_m: float) -> float:
+def checked_unit(unit_m: float) -> float:
     """Return a unit, if it is one."""
     if not (np.isfinite(unit_m) and unit_m > 0.0):
-        raise fault(path, "unit", "a positive number of metres", unit_m)
+        raise Fault("unit", "a positive number of metres", unit_m)
     return unit_m

@@ -20,10 +20,10 @@ from pathlib import Path
 import numpy as np
 from pxr import Tf, Usd, UsdGeom, UsdSkel
 
+from actions_library.importers.format import ImportOptions
 from actions_library.importers.imported import (
     Imported,
     checked_unit,
-    fault,
     skeleton_of,
     to_y_up,
     unique_names,
@@ -32,58 +32,54 @@ from actions_library.importers.usd_animation import chained, read_animation
 from actions_library.importers.usd_layers import check_layers, check_used, first_line
 from actions_library.importers.usd_meshes import read_meshes, skeleton_of_mesh
 from actions_library.importers.usd_values import numbers, texts
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def read(
-    path: Path, *, up: str | None, unit_m: float | None, skeleton: str | None = None
-) -> Imported:
+def read(path: Path, asked: ImportOptions) -> Imported:
     """Return a skeleton, its meshes and its animation from a USD file."""
     check_layers(path)
     try:
         stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
         check_used(path, stage)
-        return _read(path, stage, up, unit_m, skeleton)
+        return _read(path, stage, asked)
     # A crate's values are unpacked when they are asked for, and damage shows only then.
     except (Tf.ErrorException, UnicodeDecodeError) as error:
-        raise fault(path, "", "a USD file", first_line(error)) from None
+        raise Fault("", "a USD file", first_line(error)) from None
 
 
-def _read(
-    path: Path, stage: Usd.Stage, up: str | None, unit_m: float | None, name: str | None
-) -> Imported:
+def _read(path: Path, stage: Usd.Stage, asked: ImportOptions) -> Imported:
     prims = list(Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()))
     meshes = [UsdGeom.Mesh(p) for p in prims if p.IsA(UsdGeom.Mesh)]
     skeletons = [UsdSkel.Skeleton(p) for p in prims if p.IsA(UsdSkel.Skeleton)]
-    chosen = _chosen(path, skeletons, meshes, name)
+    chosen = _chosen(skeletons, meshes, asked.skeleton)
     change = np.eye(4)
-    axis = up or str(UsdGeom.GetStageUpAxis(stage)).lower()
-    unit = UsdGeom.GetStageMetersPerUnit(stage) if unit_m is None else unit_m
-    change[:3, :3] = to_y_up(path, axis) * checked_unit(path, unit)
+    axis = asked.up or str(UsdGeom.GetStageUpAxis(stage)).lower()
+    unit = UsdGeom.GetStageMetersPerUnit(stage) if asked.unit_m is None else asked.unit_m
+    change[:3, :3] = to_y_up(axis) * checked_unit(unit)
     bound = [mesh for mesh in meshes if skeleton_of_mesh(mesh) == chosen.GetPath()]
     return _imported(path, stage, chosen, bound, change, len(skeletons))
 
 
 def _chosen(
-    path: Path,
     skeletons: Sequence[UsdSkel.Skeleton],
     meshes: Sequence[UsdGeom.Mesh],
     name: str | None,
 ) -> UsdSkel.Skeleton:
     """Return the skeleton of a name or path, or the one that moves most."""
     if not skeletons:
-        raise fault(path, "", "a skeleton", "none")
+        raise Fault("", "a skeleton", "none")
     if name is not None:
         for skeleton in skeletons:
             if name in (str(skeleton.GetPath()), skeleton.GetPrim().GetName()):
                 return skeleton
         known = ", ".join(str(skeleton.GetPath()) for skeleton in skeletons)
-        raise fault(path, "skeleton", f"one of {known[:300]}", repr(name)[:80])
+        raise Fault("skeleton", f"one of {known[:300]}", repr(name)[:80])
 
     def size(skeleton: UsdSkel.Skeleton) -> tuple[int, int]:
         own = [m for m in meshes if skeleton_of_mesh(m) == skeleton.GetPath()]
-        points = [numbers(path, mesh.GetPointsAttr(), 3) for mesh in own]
-        joints = texts(path, skeleton.GetJointsAttr())
+        points = [numbers(mesh.GetPointsAttr(), 3) for mesh in own]
+        joints = texts(skeleton.GetJointsAttr())
         return sum(0 if p is None else len(p) for p in points), len(joints)
 
     return max(skeletons, key=size)
@@ -97,15 +93,15 @@ def _imported(
     change: FloatArray,
     count: int,
 ) -> Imported:
-    paths = texts(path, skeleton.GetJointsAttr())
+    paths = texts(skeleton.GetJointsAttr())
     where = str(skeleton.GetPath())
     valid, why = UsdSkel.Topology(paths).Validate() if paths else (False, "no joints")
     if not valid or len(set(paths)) != len(paths):
-        raise fault(path, where, "a tree of joints, parents first", why or "a joint twice")
+        raise Fault(where, "a tree of joints, parents first", why or "a joint twice")
     parents = [int(i) for i in UsdSkel.Topology(paths).GetParentIndices()]
-    rest_local = _matrices(path, skeleton.GetRestTransformsAttr(), len(paths), "rest")
-    bind = _matrices(path, skeleton.GetBindTransformsAttr(), len(paths), "bind")
-    names = texts(path, skeleton.GetJointNamesAttr())
+    rest_local = _matrices(skeleton.GetRestTransformsAttr(), len(paths), "rest")
+    bind = _matrices(skeleton.GetBindTransformsAttr(), len(paths), "bind")
+    names = texts(skeleton.GetJointNamesAttr())
     if len(names) != len(paths):
         names = [joint.rsplit("/", 1)[-1] for joint in paths]
     world = np.array(
@@ -114,10 +110,10 @@ def _imported(
     rest = change @ world @ chained(rest_local, parents)
     here = rest[0] @ np.linalg.inv(bind[0])
     bind_world = here @ bind
-    made = skeleton_of(path, names, parents, rest, bind_world)
-    figures, shapes = read_meshes(path, meshes, paths, here)
+    made = skeleton_of(names, parents, rest, bind_world)
+    figures, shapes = read_meshes(meshes, paths, here)
     animation, shapes, notes = read_animation(
-        path, stage, skeleton, paths, parents, rest_local, change, shapes
+        stage, skeleton, paths, parents, rest_local, change, shapes
     )
     if count > 1:
         notes.append(f"{count - 1} other skeletons are not kept")
@@ -125,13 +121,13 @@ def _imported(
     return Imported(path, made, figures, found, tuple(notes), unique_names(shapes, "shape"))
 
 
-def _matrices(path: Path, attribute: Usd.Attribute, count: int, kind: str) -> FloatArray:
+def _matrices(attribute: Usd.Attribute, count: int, kind: str) -> FloatArray:
     """Return ``(count, 4, 4)`` matrices that act on columns: USD's act on rows."""
-    found = numbers(path, attribute, 4, 4)
+    found = numbers(attribute, 4, 4)
     where = str(attribute.GetPrim().GetPath())
     if found is None or len(found) != count:
-        raise fault(path, where, f"{count} {kind} transforms", 0 if found is None else len(found))
+        raise Fault(where, f"{count} {kind} transforms", 0 if found is None else len(found))
     matrices = np.swapaxes(found, -1, -2)
     if not np.isfinite(matrices).all() or np.abs(np.linalg.det(matrices)).min() < 1e-18:
-        raise fault(path, where, f"finite {kind} transforms with an inverse", "another")
+        raise Fault(where, f"finite {kind} transforms with an inverse", "another")
     return matrices

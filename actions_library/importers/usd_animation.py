@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from pxr import Usd, UsdGeom, UsdSkel
 
-from actions_library.importers.imported import Animation, check_poses, fault, rigid
+from actions_library.importers.imported import Animation, check_poses, rigid
 from actions_library.importers.usd_values import numbers, texts
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
     IDENTITY_XYZW,
@@ -26,7 +26,6 @@ _BLOCK = 100_000  # poses that become matrices at once
 
 
 def read_animation(
-    path: Path,
     stage: Usd.Stage,
     skeleton: UsdSkel.Skeleton,
     joints: Sequence[str],
@@ -50,16 +49,16 @@ def read_animation(
     source = UsdSkel.Animation(prim) if prim else None
     if not source:
         return None, list(shapes), []
-    own_shapes = texts(path, source.GetBlendShapesAttr())
+    own_shapes = texts(source.GetBlendShapesAttr())
     names = list(dict.fromkeys([*shapes, *own_shapes]))
     attributes = (*_parts_of(source), source.GetBlendShapeWeightsAttr())
     times = sorted({t for attribute in attributes for t in attribute.GetTimeSamples()})
     if len(times) < 2:
         return None, names, []
     where = str(prim.GetPath())
-    rate_hz, codes = _codes(path, where, stage, times, len(joints) + len(names))
-    own = texts(path, source.GetJointsAttr())
-    moved = _Moved.read(path, source, own, codes)
+    rate_hz, codes = _codes(where, stage, times, len(joints) + len(names))
+    own = texts(source.GetJointsAttr())
+    moved = _Moved.read(source, own, codes)
     if moved.scale is not None and np.abs(moved.scale).min(initial=1.0) < 1e-6:
         return None, names, [f"animation {prim.GetName()!r} scales joints to nothing: left out"]
     place = {joint: j for j, joint in enumerate(joints)}
@@ -72,10 +71,10 @@ def read_animation(
         local = np.tile(rest, (len(codes[rows]), 1, 1, 1))
         local[:, [j for _, j in at]] = moved.matrices(rows)[:, [k for k, _ in at]]
         poses = change @ world[rows if len(world) > 1 else slice(None), None]
-        blocks.append(rigid(path, where, poses @ chained(local, parents), parents))
+        blocks.append(rigid(where, poses @ chained(local, parents), parents))
     rotation = sign_continuous(np.concatenate([q for q, _ in blocks]))
     translation = np.concatenate([t for _, t in blocks])
-    weights = _weights(path, source, own_shapes, names, codes)
+    weights = _weights(source, own_shapes, names, codes)
     return Animation(prim.GetName(), rate_hz, rotation, translation, weights), names, []
 
 
@@ -99,11 +98,9 @@ class _Moved:
     scale: FloatArray | None
 
     @classmethod
-    def read(
-        cls, path: Path, source: UsdSkel.Animation, joints: Sequence[str], codes: FloatArray
-    ) -> _Moved:
+    def read(cls, source: UsdSkel.Animation, joints: Sequence[str], codes: FloatArray) -> _Moved:
         parts = [
-            _over_time(path, attribute, codes, len(joints), width) if joints else None
+            _over_time(attribute, codes, len(joints), width) if joints else None
             for attribute, width in zip(_parts_of(source), (3, 4, 3), strict=True)
         ]
         return cls(len(joints), len(codes), *parts)
@@ -128,36 +125,36 @@ def _parts_of(source: UsdSkel.Animation) -> tuple[Usd.Attribute, Usd.Attribute, 
 
 
 def _codes(
-    path: Path, where: str, stage: Usd.Stage, times: Sequence[float], joints: int
+    where: str, stage: Usd.Stage, times: Sequence[float], joints: int
 ) -> tuple[float, FloatArray]:
     """Return the rate, and the time code of each frame from the first sample to the last."""
     codes_per_s = stage.GetTimeCodesPerSecond()
     if not (np.isfinite(codes_per_s) and codes_per_s > 0.0):
-        raise fault(path, "timeCodesPerSecond", "a positive number", codes_per_s)
+        raise Fault("timeCodesPerSecond", "a positive number", codes_per_s)
     if not np.isfinite(times).all():
-        raise fault(path, where, "finite time codes", "another")
+        raise Fault(where, "finite time codes", "another")
     rate_hz = min(codes_per_s, FASTEST_HZ)
     with np.errstate(over="ignore"):
         frames = np.round((times[-1] - times[0]) / codes_per_s * rate_hz) + 1.0
-    check_poses(path, where, max(frames, 2.0), joints)
+    check_poses(where, max(frames, 2.0), joints)
     steps = np.arange(int(max(frames, 2.0)))
     return rate_hz, np.minimum(times[0] + steps * codes_per_s / rate_hz, times[-1])
 
 
 def _over_time(
-    path: Path, attribute: Usd.Attribute, codes: FloatArray, count: int, *shape: int
+    attribute: Usd.Attribute, codes: FloatArray, count: int, *shape: int
 ) -> FloatArray | None:
     """Return an attribute's values ``(n, count, *shape)`` at time codes; None without any."""
     frames = len(codes)
     if not attribute.ValueMightBeTimeVarying():
         codes = codes[:1]
-    found = [numbers(path, attribute, *shape, time=float(code)) for code in codes]
+    found = [numbers(attribute, *shape, time=float(code)) for code in codes]
     if found[0] is None or not len(found[0]):
         return None
     for code, values in zip(codes, found, strict=True):
         if values is None or len(values) != count or not np.isfinite(values).all():
             place = f"{attribute.GetPath()}, time code {code:g}"
-            raise fault(path, place, f"{count} finite values", 0 if values is None else len(values))
+            raise Fault(place, f"{count} finite values", 0 if values is None else len(values))
     values = np.stack([v for v in found if v is not None])
     return np.broadcast_to(values, (frames, *values.shape[1:]))
 
@@ -174,7 +171,6 @@ def _world(skeleton: UsdSkel.Skeleton, codes: FloatArray) -> FloatArray:
 
 
 def _weights(
-    path: Path,
     source: UsdSkel.Animation,
     own: Sequence[str],
     names: Sequence[str],
@@ -182,7 +178,7 @@ def _weights(
 ) -> FloatArray | None:
     """Return the weights of all shapes ``(n, s)``; None where none is moved."""
     attribute = source.GetBlendShapeWeightsAttr()
-    found = _over_time(path, attribute, codes, len(own)) if own else None
+    found = _over_time(attribute, codes, len(own)) if own else None
     if found is None:
         return None
     weights = np.zeros((len(codes), len(names)))

@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 from pxr import Tf, Usd, UsdGeom
 
-from actions_library.importers.imported import checked_unit, fault, to_y_up
+from actions_library.importers.imported import checked_unit, to_y_up
 from actions_library.importers.usd_layers import check_layers, check_used, first_line
 from actions_library.importers.usd_meshes import fans
 from actions_library.importers.usd_values import numbers
+from laban.faults import Fault, naming
 from smd.acting.terrain import Terrain
+from smd.errors import ImportedFileError
 from smd.geometry.arrays import FloatArray, IntArray
 
 
@@ -30,22 +32,23 @@ def read_terrain(path: Path | str) -> Terrain:
         If no part of it is level enough to stand on.
     """
     path = Path(path)
-    if not path.is_file():
-        raise fault(path, "", "a USD file", "none")
-    check_layers(path)
-    try:
-        stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
-        check_used(path, stage)
-        points_m, triangles = _read(path, stage)
-    except (Tf.ErrorException, UnicodeDecodeError) as error:
-        raise fault(path, "", "a USD file", first_line(error)) from None
+    with naming(path, ImportedFileError):
+        if not path.is_file():
+            raise Fault("", "a USD file", "none")
+        check_layers(path)
+        try:
+            stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
+            check_used(path, stage)
+            points_m, triangles = _read(stage)
+        except (Tf.ErrorException, UnicodeDecodeError) as error:
+            raise Fault("", "a USD file", first_line(error)) from None
     return Terrain(points_m, triangles, name=str(path))
 
 
-def _read(path: Path, stage: Usd.Stage) -> tuple[FloatArray, IntArray]:
+def _read(stage: Usd.Stage) -> tuple[FloatArray, IntArray]:
     """Return the points ``(v, 3)`` and triangles ``(t, 3)`` of what is seen, in our frame."""
-    change = to_y_up(path, str(UsdGeom.GetStageUpAxis(stage)).lower()) * checked_unit(
-        path, UsdGeom.GetStageMetersPerUnit(stage)
+    change = to_y_up(str(UsdGeom.GetStageUpAxis(stage)).lower()) * checked_unit(
+        UsdGeom.GetStageMetersPerUnit(stage)
     )
     cache = UsdGeom.XformCache()
     points, triangles, count = [], [], 0
@@ -53,13 +56,13 @@ def _read(path: Path, stage: Usd.Stage) -> tuple[FloatArray, IntArray]:
         if not prim.IsA(UsdGeom.Mesh) or not _is_seen(UsdGeom.Imageable(prim)):
             continue
         matrix = np.array(cache.GetLocalToWorldTransform(prim))  # of rows
-        own, faces = _mesh(path, UsdGeom.Mesh(prim))
+        own, faces = _mesh(UsdGeom.Mesh(prim))
         points.append((own @ matrix[:3, :3] + matrix[3, :3]) @ change.T)
         mirrored = np.linalg.det(matrix[:3, :3]) < 0.0
         triangles.append((faces[:, ::-1] if mirrored else faces) + count)
         count += len(own)
     if not count or not sum(map(len, triangles)):
-        raise fault(path, "", "a mesh to walk on", "none")
+        raise Fault("", "a mesh to walk on", "none")
     return np.concatenate(points), np.concatenate(triangles)
 
 
@@ -68,20 +71,20 @@ def _is_seen(prim: UsdGeom.Imageable) -> bool:
     return not hidden and prim.ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
 
 
-def _mesh(path: Path, mesh: UsdGeom.Mesh) -> tuple[FloatArray, IntArray]:
+def _mesh(mesh: UsdGeom.Mesh) -> tuple[FloatArray, IntArray]:
     """Return a mesh's points and its faces as triangles."""
     where = str(mesh.GetPath())
-    points = numbers(path, mesh.GetPointsAttr(), 3)
+    points = numbers(mesh.GetPointsAttr(), 3)
     counts = np.array(mesh.GetFaceVertexCountsAttr().Get() or [], dtype=np.int64)
     corners = np.array(mesh.GetFaceVertexIndicesAttr().Get() or [], dtype=np.int64)
     if points is None or not len(points):
         return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
     if not np.isfinite(points).all():
-        raise fault(path, where, "finite points", "others")
+        raise Fault(where, "finite points", "others")
     if counts.sum() != len(corners) or (counts < 0).any():
-        raise fault(path, where, f"{counts.sum()} corners of faces", len(corners))
+        raise Fault(where, f"{counts.sum()} corners of faces", len(corners))
     if len(corners) and (corners.min() < 0 or corners.max() >= len(points)):
-        raise fault(path, where, f"corners from 0 to {len(points) - 1}", "others")
+        raise Fault(where, f"corners from 0 to {len(points) - 1}", "others")
     triangles = fans(counts, corners)
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         triangles = triangles[:, ::-1]

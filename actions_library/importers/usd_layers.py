@@ -15,7 +15,8 @@ from pathlib import Path, PurePosixPath
 
 from pxr import Ar, Sdf, Tf, Usd
 
-from actions_library.importers.imported import MOST_BYTES, fault
+from actions_library.importers.imported import MOST_BYTES
+from laban.faults import Fault
 
 _DEEPEST_BRACES = 512
 _MOST_LAYERS = 256
@@ -26,7 +27,7 @@ def check_layers(path: Path) -> None:
 
     Raises
     ------
-    ImportedFileError
+    Fault
         For the first layer at fault.
     """
     folder = _asset_folder(path)
@@ -39,15 +40,15 @@ def check_layers(path: Path) -> None:
             continue
         seen.add(file)
         if not file.is_relative_to(folder):
-            raise fault(path, "layers", "files of the same asset", repr(str(file))[:120])
+            raise Fault("layers", "files of the same asset", repr(str(file))[:120])
         if not file.exists():  # USD goes on without it
             continue
         if not file.is_file():
-            raise fault(path, "layers", "plain files", repr(str(file))[:120])
+            raise Fault("layers", "plain files", repr(str(file))[:120])
         size += file.stat().st_size
         if size > MOST_BYTES or len(seen) > _MOST_LAYERS:
-            raise fault(path, "layers", f"at most {MOST_BYTES} bytes, {_MOST_LAYERS} files", "more")
-        pending += _led_to(path, file)
+            raise Fault("layers", f"at most {MOST_BYTES} bytes, {_MOST_LAYERS} files", "more")
+        pending += _led_to(file)
 
 
 def check_used(path: Path, stage: Usd.Stage) -> None:
@@ -55,7 +56,7 @@ def check_used(path: Path, stage: Usd.Stage) -> None:
 
     Raises
     ------
-    ImportedFileError
+    Fault
         For the first such layer, or prim with value clips.
     """
     folder = _asset_folder(path)
@@ -65,10 +66,10 @@ def check_used(path: Path, stage: Usd.Stage) -> None:
             if Ar.IsPackageRelativePath(file):
                 file = Ar.SplitPackageRelativePathOuter(file)[0]
             if not Path(file).resolve().is_relative_to(folder):
-                raise fault(path, "layers", "files of the same asset", repr(file)[:120])
+                raise Fault("layers", "files of the same asset", repr(file)[:120])
     for prim in stage.TraverseAll():
         if prim.HasAuthoredMetadata("clips"):
-            raise fault(path, str(prim.GetPath()), "no value clips", "some")
+            raise Fault(str(prim.GetPath()), "no value clips", "some")
 
 
 def _asset_folder(path: Path) -> Path:
@@ -78,54 +79,54 @@ def _asset_folder(path: Path) -> Path:
     return folder if above == above.parent else above
 
 
-def _led_to(path: Path, file: Path) -> list[Path]:
+def _led_to(file: Path) -> list[Path]:
     """Return the files outside an archive to which a file's layers refer."""
     found: list[Path] = []
-    for layer, package in _layers(path, file):
-        for name in _references(path, layer):
+    for layer, package in _layers(file):
+        for name in _references(layer):
             if "`" in name or "${" in name:
-                raise fault(path, "layers", "paths without expressions", repr(name)[:80])
+                raise Fault("layers", "paths without expressions", repr(name)[:80])
             target, _ = Sdf.Layer.SplitIdentifier(layer.ComputeAbsolutePath(name))
             if Ar.IsPackageRelativePath(target):
                 outer, inner = Ar.SplitPackageRelativePathOuter(target)
                 found.append(Path(outer).resolve())
                 if package is not None and ".." in PurePosixPath(inner).parts:
-                    raise fault(path, "archive", "files inside it", repr(name)[:80])
+                    raise Fault("archive", "files inside it", repr(name)[:80])
             elif package is None or Path(target).is_absolute():
                 found.append(Path(target).resolve())
     return found
 
 
-def _layers(path: Path, file: Path) -> list[tuple[Sdf.Layer, Path | None]]:
+def _layers(file: Path) -> list[tuple[Sdf.Layer, Path | None]]:
     """Return a file's layer, or those of an archive, each with the archive that holds it."""
     if file.suffix.lower() != ".usdz":
-        _check_depth(path, file.read_bytes())
-        return [(_opened(path, str(file)), None)]
+        _check_depth(file.read_bytes())
+        return [(_opened(str(file)), None)]
     layers: list[tuple[Sdf.Layer, Path | None]] = []
-    for name in _checked_archive(path, file):
+    for name in _checked_archive(file):
         inside = Ar.JoinPackageRelativePath([str(file), name])
-        layers.append((_opened(path, inside), file))
+        layers.append((_opened(inside), file))
     return layers
 
 
-def _opened(path: Path, name: str) -> Sdf.Layer:
+def _opened(name: str) -> Sdf.Layer:
     try:
         layer = Sdf.Layer.FindOrOpen(name)
     except Tf.ErrorException as error:
-        raise fault(path, "", "a USD file", first_line(error)) from None
+        raise Fault("", "a USD file", first_line(error)) from None
     if layer is None:
-        raise fault(path, "", "a USD file", "something else")
+        raise Fault("", "a USD file", "something else")
     return layer
 
 
-def _references(path: Path, layer: Sdf.Layer) -> list[str]:
+def _references(layer: Sdf.Layer) -> list[str]:
     try:
         return [str(name) for name in layer.GetCompositionAssetDependencies() if name]
     except (Tf.ErrorException, UnicodeDecodeError) as error:
-        raise fault(path, "", "a USD file", first_line(error)) from None
+        raise Fault("", "a USD file", first_line(error)) from None
 
 
-def _check_depth(path: Path, data: bytes) -> None:
+def _check_depth(data: bytes) -> None:
     """Refuse text whose braces are nested too deeply."""
     if not data.startswith(b"#"):
         return
@@ -135,40 +136,40 @@ def _check_depth(path: Path, data: bytes) -> None:
         depth = depth + count if found[0][0] in b"({[" else max(depth - count, 0)
         deepest = max(deepest, depth)
     if deepest > _DEEPEST_BRACES:
-        raise fault(path, "", f"braces nested at most {_DEEPEST_BRACES} deep", deepest)
+        raise Fault("", f"braces nested at most {_DEEPEST_BRACES} deep", deepest)
 
 
-def _checked_archive(path: Path, file: Path) -> list[str]:
+def _checked_archive(file: Path) -> list[str]:
     """Return the names of an archive's layers; refuse one too large, compressed, or leading out."""
     try:
         with zipfile.ZipFile(file) as archive:
             entries = archive.infolist()
             for entry in entries:
-                _check_entry(path, entry)
+                _check_entry(entry)
             total = sum(entry.file_size for entry in entries)
             if total > MOST_BYTES or len(entries) > _MOST_LAYERS:
                 most = f"at most {MOST_BYTES} bytes, {_MOST_LAYERS} files"
-                raise fault(path, "archive", most, f"{total}, {len(entries)}")
+                raise Fault("archive", most, f"{total}, {len(entries)}")
             names = [entry.filename for entry in entries]
             layers = [n for n in names if n.lower().endswith((".usd", ".usda", ".usdc"))]
             for name in layers:
-                _check_depth(path, archive.read(name))
+                _check_depth(archive.read(name))
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, RuntimeError) as error:
-        raise fault(path, "archive", "a zip archive", str(error)[:80]) from None
+        raise Fault("archive", "a zip archive", str(error)[:80]) from None
     if not layers:
-        raise fault(path, "archive", "a USD file in it", "none")
+        raise Fault("archive", "a USD file in it", "none")
     return layers
 
 
-def _check_entry(path: Path, entry: zipfile.ZipInfo) -> None:
+def _check_entry(entry: zipfile.ZipInfo) -> None:
     name = entry.filename
     outside = ".." in PurePosixPath(name).parts or name.startswith("/") or "\\" in name
     if outside or ":" in name or "[" in name:
-        raise fault(path, "archive", "files inside it", repr(name)[:80])
+        raise Fault("archive", "files inside it", repr(name)[:80])
     if entry.compress_type != zipfile.ZIP_STORED or entry.compress_size != entry.file_size:
-        raise fault(path, f"archive: {name[:60]}", "a file as it is", "a compressed one")
+        raise Fault(f"archive: {name[:60]}", "a file as it is", "a compressed one")
     if (entry.external_attr >> 16) & 0o170000 == 0o120000:
-        raise fault(path, f"archive: {name[:60]}", "a file", "a link")
+        raise Fault(f"archive: {name[:60]}", "a file", "a link")
 
 
 def first_line(error: Exception) -> str:

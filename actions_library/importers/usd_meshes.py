@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from pxr import Sdf, UsdGeom, UsdShade, UsdSkel
@@ -11,11 +10,11 @@ from pxr import Sdf, UsdGeom, UsdShade, UsdSkel
 from actions_library.importers.imported import (
     MOST_POINTS,
     MOST_TRIANGLES,
-    fault,
     strongest,
     unique_names,
 )
 from actions_library.importers.usd_values import numbers, texts
+from laban.faults import Fault
 from smd.character.character import Mesh
 from smd.geometry.arrays import FloatArray, IntArray
 
@@ -23,7 +22,7 @@ _GREY = (0.8, 0.8, 0.8)
 
 
 def read_meshes(
-    path: Path, meshes: Sequence[UsdGeom.Mesh], joints: Sequence[str], here: FloatArray
+    meshes: Sequence[UsdGeom.Mesh], joints: Sequence[str], here: FloatArray
 ) -> tuple[tuple[Mesh, ...], list[str]]:
     """Return the meshes, and the names of their blend shapes, each once.
 
@@ -38,13 +37,13 @@ def read_meshes(
     figures: list[Mesh] = []
     shapes: dict[str, None] = {}
     for name, mesh in zip(names, meshes, strict=True):
-        figures.append(_mesh(path, name, mesh, joints, here))
+        figures.append(_mesh(name, mesh, joints, here))
         points = sum(len(figure.points_m) for figure in figures)
         faces = sum(len(figure.triangles) for figure in figures)
         if points > MOST_POINTS or faces > MOST_TRIANGLES:
             most = f"at most {MOST_POINTS} points and {MOST_TRIANGLES} triangles in all"
-            raise fault(path, str(mesh.GetPath()), most, f"{points} and {faces}")
-        shapes |= dict.fromkeys(texts(path, UsdSkel.BindingAPI(mesh).GetBlendShapesAttr()))
+            raise Fault(str(mesh.GetPath()), most, f"{points} and {faces}")
+        shapes |= dict.fromkeys(texts(UsdSkel.BindingAPI(mesh).GetBlendShapesAttr()))
     return tuple(figures), list(shapes)
 
 
@@ -57,33 +56,31 @@ def skeleton_of_mesh(mesh: UsdGeom.Mesh) -> Sdf.Path | None:
     return skeleton.GetPath()
 
 
-def _mesh(
-    path: Path, name: str, mesh: UsdGeom.Mesh, joints: Sequence[str], here: FloatArray
-) -> Mesh:
+def _mesh(name: str, mesh: UsdGeom.Mesh, joints: Sequence[str], here: FloatArray) -> Mesh:
     """Return a mesh in the bind pose, its faces cut into triangles."""
     where = str(mesh.GetPath())
-    points = numbers(path, mesh.GetPointsAttr(), 3)
+    points = numbers(mesh.GetPointsAttr(), 3)
     if points is None or not len(points) or not np.isfinite(points).all():
-        raise fault(path, where, "finite points", "none, or some that are not")
-    counts = _whole(path, mesh.GetFaceVertexCountsAttr())
-    corners = _whole(path, mesh.GetFaceVertexIndicesAttr())
+        raise Fault(where, "finite points", "none, or some that are not")
+    counts = _whole(mesh.GetFaceVertexCountsAttr())
+    corners = _whole(mesh.GetFaceVertexIndicesAttr())
     if counts.min(initial=0) < 0 or counts.sum() != len(corners) or not len(corners):
-        raise fault(path, where, f"{int(counts.sum())} corners of faces", len(corners))
+        raise Fault(where, f"{int(counts.sum())} corners of faces", len(corners))
     if corners.min() < 0 or corners.max() >= len(points):
-        raise fault(path, where, f"corners from 0 to {len(points) - 1}", _extremes(corners))
-    indices, weights = _influences(path, mesh, joints, len(points), where)
+        raise Fault(where, f"corners from 0 to {len(points) - 1}", _extremes(corners))
+    indices, weights = _influences(mesh, joints, len(points), where)
     placed = UsdSkel.BindingAPI(mesh).GetGeomBindTransformAttr()
-    matrix = here @ (numbers_of_one(path, placed, 4, 4, default=np.eye(4)).T)
+    matrix = here @ (numbers_of_one(placed, 4, 4, default=np.eye(4)).T)
     points = points @ matrix[:3, :3].T + matrix[:3, 3]
     if not np.isfinite(points).all():
-        raise fault(path, where, "a finite geomBindTransform", "another")
+        raise Fault(where, "a finite geomBindTransform", "another")
     mirrored = np.linalg.det(matrix[:3, :3]) < 0.0
     if mirrored != (str(mesh.GetOrientationAttr().Get()) == "leftHanded"):
         corners, counts = corners[::-1].copy(), counts[::-1]
-    return Mesh(name, points, fans(counts, corners), indices, weights, _color(path, mesh))
+    return Mesh(name, points, fans(counts, corners), indices, weights, _color(mesh))
 
 
-def numbers_of_one(path: Path, attribute: object, *shape: int, default: FloatArray) -> FloatArray:
+def numbers_of_one(attribute: object, *shape: int, default: FloatArray) -> FloatArray:
     """Return the finite value of an attribute that holds one of a shape, or a default."""
     value = attribute.Get() if attribute else None  # type: ignore[attr-defined]
     if value is None:
@@ -94,13 +91,13 @@ def numbers_of_one(path: Path, attribute: object, *shape: int, default: FloatArr
         array = np.empty(0)
     if array.shape != shape or not np.isfinite(array).all():
         expected = f"{' times '.join(map(str, shape))} finite numbers"
-        raise fault(path, str(attribute.GetPath()), expected, repr(value)[:60])  # type: ignore[attr-defined]
+        raise Fault(str(attribute.GetPath()), expected, repr(value)[:60])  # type: ignore[attr-defined]
     return array
 
 
-def _whole(path: Path, attribute: object) -> IntArray:
+def _whole(attribute: object) -> IntArray:
     """Return an attribute's whole numbers; none where it has none."""
-    found = numbers(path, attribute)
+    found = numbers(attribute)
     return np.empty(0, np.int64) if found is None else found.astype(np.int64)
 
 
@@ -118,27 +115,27 @@ def fans(counts: IntArray, corners: IntArray) -> IntArray:
 
 
 def _influences(
-    path: Path, mesh: UsdGeom.Mesh, joints: Sequence[str], count: int, where: str
+    mesh: UsdGeom.Mesh, joints: Sequence[str], count: int, where: str
 ) -> tuple[IntArray, FloatArray]:
     """Return the four strongest joints of each point, among the skeleton's, and their weights."""
     binding = UsdSkel.BindingAPI(mesh)
     primvar = binding.GetJointIndicesPrimvar()
-    indices = _whole(path, primvar.GetAttr())
-    found = numbers(path, binding.GetJointWeightsPrimvar().GetAttr())
+    indices = _whole(primvar.GetAttr())
+    found = numbers(binding.GetJointWeightsPrimvar().GetAttr())
     weights = np.empty(0) if found is None else found
     each = primvar.GetElementSize()
     rigid_mesh = primvar.GetInterpolation() == UsdGeom.Tokens.constant
     rows = 1 if rigid_mesh else count
     if each < 1 or not (len(indices) == len(weights) == each * rows):
         expected = f"{each * rows} joint indices and weights"
-        raise fault(path, where, expected, f"{len(indices)} and {len(weights)}")
-    own = texts(path, binding.GetJointsAttr()) or list(joints)
+        raise Fault(where, expected, f"{len(indices)} and {len(weights)}")
+    own = texts(binding.GetJointsAttr()) or list(joints)
     place = {joint: j for j, joint in enumerate(joints)}
     unknown = [joint for joint in own if joint not in place]
     if unknown:
-        raise fault(path, where, "joints of the skeleton", unknown[0][:60])
+        raise Fault(where, "joints of the skeleton", unknown[0][:60])
     if indices.min() < 0 or indices.max() >= len(own):
-        raise fault(path, where, f"joint indices from 0 to {len(own) - 1}", _extremes(indices))
+        raise Fault(where, f"joint indices from 0 to {len(own) - 1}", _extremes(indices))
     order = np.array([place[joint] for joint in own])
     known = np.nan_to_num(weights, posinf=0.0, neginf=0.0).reshape(rows, each)
     first, share = strongest(order[indices].reshape(rows, each), known)
@@ -146,15 +143,15 @@ def _influences(
     return np.broadcast_to(first, wide).copy(), np.broadcast_to(share, wide).copy()
 
 
-def _color(path: Path, mesh: UsdGeom.Mesh) -> tuple[float, float, float]:
+def _color(mesh: UsdGeom.Mesh) -> tuple[float, float, float]:
     """Return a mesh's display colour, or its material's."""
-    values = numbers(path, mesh.GetDisplayColorAttr(), 3)
+    values = numbers(mesh.GetDisplayColorAttr(), 3)
     if values is not None and len(values):
         found = values.mean(axis=0)
     else:
         material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
         surface = material.ComputeSurfaceSource()[0] if material else None
         diffuse = surface.GetInput("diffuseColor") if surface else None
-        found = numbers_of_one(path, diffuse and diffuse.GetAttr(), 3, default=np.array(_GREY))
+        found = numbers_of_one(diffuse and diffuse.GetAttr(), 3, default=np.array(_GREY))
     r, g, b = np.clip(np.nan_to_num(found), 0.0, 1.0).tolist()
     return r, g, b

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pxr import Usd
 
-from actions_library.importers.imported import fault
+from laban.faults import Fault
 from smd.geometry.arrays import FloatArray
 
 
-def numbers(
-    path: Path, attribute: Any, *shape: int, time: float | None = None
-) -> FloatArray | None:
+def numbers(attribute: Any, *shape: int, time: float | None = None) -> FloatArray | None:
     """Return an attribute's values ``(n, *shape)``; None where it has none.
 
     Quaternions are xyzw, as they lie in memory.
 
     Raises
     ------
-    ImportedFileError
+    Fault
         If they are no numbers, or of another shape.
     """
     value = attribute.Get(Usd.TimeCode.Default() if time is None else time)
@@ -32,24 +29,24 @@ def numbers(
     try:
         array = np.array(value, dtype=np.float64)
     except (TypeError, ValueError):
-        raise fault(path, where, expected, type(value).__name__) from None
+        raise Fault(where, expected, type(value).__name__) from None
     if not array.size:
         return np.empty((0, *shape))
     if array.ndim != 1 + len(shape) or array.shape[1:] != shape:
-        raise fault(path, where, expected, f"an array of shape {array.shape}")
+        raise Fault(where, expected, f"an array of shape {array.shape}")
     return array
 
 
-def texts(path: Path, attribute: Any) -> list[str]:
+def texts(attribute: Any) -> list[str]:
     """Return an attribute's texts; none where it has none.
 
     Raises
     ------
-    ImportedFileError
+    Fault
         If it holds something else.
     """
     value = attribute.Get()
     try:
         return [str(text) for text in (() if value is None else value)]
     except TypeError:
-        raise fault(path, str(attribute.GetPath()), "texts", type(value).__name__) from None
+        raise Fault(str(attribute.GetPath()), "texts", type(value).__name__) from None

@@ -1,9 +1,9 @@
 """Recording files: one module per format, all read into our convention.
 
-A format is a module with ``matches(head)``, which knows its files by their content, and
-``read(text, name)``, which returns the poses as they stand in the file. Formats that are not plain
-text (Beat Saber Open Replay, USD) are known by their suffix and have ``read(path, name)``. What
-all share (frames, checks, dropouts) is done once, in `smd.formats.reading`.
+A module ends with its `RecordingFormat`: suffixes, how a text of its own is known, and what reads
+the poses as they stand in a file. `smd.formats.reading` lists them, and does once what all share:
+frames, checks, dropouts. What is wrong with a file is raised as a `Fault`, which knows the place;
+reading adds the file's name.
 """
 
 from smd.formats.frame import Mount, SourceFrame

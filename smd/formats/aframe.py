@@ -11,14 +11,17 @@ References
 
 from __future__ import annotations
 
-import json
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from laban.faults import Fault
+from laban.json_node import parse_json
+from smd.formats.file import RecordingFile
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Mount, SourceFrame
-from smd.formats.tracks import Content, Track, fault, shown
+from smd.formats.tracks import Content, Track, shown
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import multiply, quaternion_about
 
@@ -32,22 +35,15 @@ def matches(head: str) -> bool:
     return head.lstrip().startswith(("{", "["))
 
 
-def read(text: str, name: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return a track for every device that has poses; the one named ``camera`` is the headset.
 
     Raises
     ------
-    RecordingError
+    Fault
         If the text is not JSON, no device has poses, or a pose lacks a number.
     """
-    try:
-        whole = json.loads(text)
-    except RecursionError:
-        raise fault(name, "", "devices with poses", "JSON nested too deeply") from None
-    except json.JSONDecodeError as error:
-        raise fault(name, f"line {error.lineno}", "JSON", error.msg) from None
-    except ValueError as error:  # an integer of thousands of digits
-        raise fault(name, "", "JSON", str(error)) from None
+    whole = parse_json(file.text).value  # poses by the thousand: read without places of their own
     devices = whole.get("recording", whole) if isinstance(whole, dict) else whole
     poses = {
         str(device): content["poses"]
@@ -56,8 +52,8 @@ def read(text: str, name: str) -> Content:
     }
     if not poses:
         keys = ", ".join(list(whole)[:6]) if isinstance(whole, dict) else type(whole).__name__
-        raise fault(name, "", "JSON with devices that have poses", shown(keys))
-    numbers = {device: _numbers(name, device, listed) for device, listed in poses.items()}
+        raise Fault("", "JSON with devices that have poses", shown(keys))
+    numbers = {device: _numbers(device, listed) for device, listed in poses.items()}
     tracks = tuple(
         Track(
             device=device,
@@ -83,10 +79,10 @@ def _quaternion_from_degrees(rotation_deg: FloatArray) -> FloatArray:
     return multiply(turned, quaternion_about([0, 0, 1], z))
 
 
-def _numbers(name: str, device: str, poses: Any) -> FloatArray:
+def _numbers(device: str, poses: Any) -> FloatArray:
     """Return timestamp, position and rotation ``(n, 7)``; null is NaN."""
     if not isinstance(poses, list):
-        raise fault(name, f"device {device!r}", "a list of poses", shown(poses))
+        raise Fault(f"device {device!r}", "a list of poses", shown(poses))
     rows = []
     for i, pose in enumerate(poses):
         try:
@@ -99,8 +95,7 @@ def _numbers(name: str, device: str, poses: Any) -> FloatArray:
                 raise TypeError
             rows.append([np.nan if value is None else float(value) for value in row])
         except (KeyError, TypeError, IndexError, OverflowError):
-            raise fault(
-                name,
+            raise Fault(
                 _place(device, i),
                 "numbers in timestamp, position x y z and rotation x y z",
                 shown(pose),
@@ -108,5 +103,8 @@ def _numbers(name: str, device: str, poses: Any) -> FloatArray:
     numbers = np.array(rows, dtype=np.float64)
     infinite = np.isinf(numbers).any(axis=1)
     if infinite.any():  # here, since an infinite angle would pass for one that is lost
-        raise fault(name, _place(device, int(np.argmax(infinite))), "finite numbers", "inf")
+        raise Fault(_place(device, int(np.argmax(infinite))), "finite numbers", "inf")
     return numbers
+
+
+FORMAT = RecordingFormat("A-Frame motion capture", (".json",), read, matches)

@@ -14,13 +14,14 @@ from __future__ import annotations
 
 import struct
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
+from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Mount, SourceFrame
-from smd.formats.text import read_bytes
-from smd.formats.tracks import Content, Track, fault
+from smd.formats.tracks import Content, Track
 
 FRAME = SourceFrame("y", "z", "left", "m", "xyzw", Mount())
 
@@ -34,20 +35,20 @@ _KEPT = {8: "controller", 7: "hmd", 10: "song"}
 """Which of the first thirteen texts are kept as metadata."""
 
 
-def read(path: Path, name: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return the tracks of head, left and right.
 
     Raises
     ------
-    RecordingError
+    Fault
         If the file is none of this kind and version, or ends too early.
     """
-    cursor = _Cursor(read_bytes(path, name), name)
+    cursor = _Cursor(file.read_bytes())
     magic, version = cursor.numbers("<iB")
     if magic != MAGIC:
-        raise fault(name, "", f"the magic number {MAGIC:#x}", f"{magic & 0xFFFFFFFF:#x}")
+        raise Fault("", f"the magic number {MAGIC:#x}", f"{magic & 0xFFFFFFFF:#x}")
     if version != VERSION:
-        raise fault(name, "", f"version {VERSION} of Beat Saber Open Replay", f"version {version}")
+        raise Fault("", f"version {VERSION} of Beat Saber Open Replay", f"version {version}")
     cursor.section(0)
     texts = [cursor.text() for _ in range(13)]
     cursor.numbers("<i")  # score
@@ -82,16 +83,15 @@ def _place(rows: list[int], i: int) -> str:
 class _Cursor:
     """Reads one thing after another; every lack is an error that names its place."""
 
-    def __init__(self, data: bytes, name: str) -> None:
+    def __init__(self, data: bytes) -> None:
         self._data = data
-        self._name = name
         self._at = 0
 
     def take(self, count: int) -> bytes:
         """Return the next bytes."""
         if count < 0 or self._at + count > len(self._data):
             left = len(self._data) - self._at
-            raise fault(self._name, f"byte {self._at}", f"{count} bytes more", f"{left}")
+            raise Fault(f"byte {self._at}", f"{count} bytes more", f"{left}")
         self._at += count
         return self._data[self._at - count : self._at]
 
@@ -109,4 +109,7 @@ class _Cursor:
         (found,) = self.numbers("<B")
         if found != number:
             place = f"byte {self._at - 1}"
-            raise fault(self._name, place, f"the start of section {number}", f"{found}")
+            raise Fault(place, f"the start of section {number}", f"{found}")
+
+
+FORMAT = RecordingFormat("Beat Saber Open Replay", (".bsor",), read)

@@ -26,9 +26,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import Mount, SourceFrame
 from smd.formats.table import Encoder, cells, line_of_row, read_table
-from smd.formats.tracks import Content, Track, fault, shown
+from smd.formats.tracks import Content, Track, shown
 
 _UNITS = {"meters": "m", "centimeters": "cm", "millimeters": "mm", "inches": "in", "feet": "ft"}
 
@@ -50,29 +53,29 @@ def matches(head: str) -> bool:
     return head.startswith("Format Version,")
 
 
-def read(text: str, name: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return a track for every rigid body.
 
     Raises
     ------
-    RecordingError
+    Fault
         If rotations are no quaternions, the unit is unknown, the columns are not as described, or
         there is no rigid body.
     """
-    lines = text.split("\n")
+    lines = file.text.split("\n")
     said = cells(lines[0], ",")
     settings = dict(zip(said[0::2], said[1::2], strict=False))
-    frame = _frame(name, settings)
+    frame = _frame(settings)
     columns = next((i for i, line in enumerate(lines) if line.startswith("Frame,")), None)
     if columns is None:
-        raise fault(name, "", "a line that begins Frame,Time (Seconds)", "none")
+        raise Fault("", "a line that begins Frame,Time (Seconds)", "none")
     above = [cells(line, ",") for line in lines[1:columns] if line.strip(", ")]
-    bodies = _bodies(name, above, cells(lines[columns], ","))
+    bodies = _bodies(above, cells(lines[columns], ","))
     width = len(cells(lines[columns], ","))
     known = {1, *(column for parts in bodies.values() for column in parts.values())}
     encoders: dict[int | str, Encoder] = {i: _nothing for i in range(width) if i not in known}
     titles = [f"{i + 1}" for i in range(width)]
-    values = read_table(name, lines, columns + 1, ",", titles, encoders)
+    values = read_table(lines, columns + 1, ",", titles, encoders)
     tracks = tuple(
         Track(
             device=body,
@@ -87,26 +90,24 @@ def read(text: str, name: str) -> Content:
     return Content(tracks, frame, order_is_given=True, metadata={"take": take} if take else {})
 
 
-def _frame(name: str, settings: dict[str, str]) -> SourceFrame:
+def _frame(settings: dict[str, str]) -> SourceFrame:
     """Return what the first line says of the numbers."""
     rotation = settings.get("Rotation Type", "Quaternion")
     if rotation != "Quaternion":
         expected = "rotations as Quaternion (export again with that type)"
-        raise fault(name, "line 1", expected, shown(rotation))
+        raise Fault("line 1", expected, shown(rotation))
     unit = settings.get("Length Units", "Meters")
     if unit.lower() not in _UNITS:
-        raise fault(name, "line 1", f"length units of {', '.join(_UNITS)}", shown(unit))
+        raise Fault("line 1", f"length units of {', '.join(_UNITS)}", shown(unit))
     return SourceFrame("y", "z", "right", _UNITS[unit.lower()], "xyzw", Mount())
 
 
-def _bodies(
-    name: str, above: Sequence[Sequence[str]], axes: Sequence[str]
-) -> dict[str, dict[str, int]]:
+def _bodies(above: Sequence[Sequence[str]], axes: Sequence[str]) -> dict[str, dict[str, int]]:
     """Return the columns of each rigid body: where its x, y, z, qx, qy, qz and qw are."""
     widths = {len(row) for row in above} | {len(axes)}
     if len(above) < _FEWEST_HEADER_LINES or len(widths) > 1:
         expected = "lines of type, name, ID and Rotation or Position above the columns"
-        raise fault(name, "", expected, f"{len(above)} lines of {sorted(widths)} cells")
+        raise Fault("", expected, f"{len(above)} lines of {sorted(widths)} cells")
     kinds, names, whats = above[0], above[1], above[-1]
     bodies: dict[str, dict[str, int]] = {}
     for i in range(2, len(axes)):
@@ -116,9 +117,9 @@ def _bodies(
     for body, parts in bodies.items():
         if len(parts) < len(_PARTS):
             lacking = ", ".join(sorted(set(_PARTS.values()) - set(parts)))
-            raise fault(name, f"rigid body {body!r}", "rotation and position", f"no {lacking}")
+            raise Fault(f"rigid body {body!r}", "rotation and position", f"no {lacking}")
     if not bodies:
-        raise fault(name, "", "rigid bodies", f"only {', '.join(sorted(set(kinds[2:]))) or 'none'}")
+        raise Fault("", "rigid bodies", f"only {', '.join(sorted(set(kinds[2:]))) or 'none'}")
     return bodies
 
 
@@ -126,3 +127,6 @@ def _nothing(cell: str) -> float:
     """Pass over a cell that is not ours."""
     del cell
     return 0.0
+
+
+FORMAT = RecordingFormat("OptiTrack Motive", (".csv",), read, matches)

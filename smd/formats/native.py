@@ -22,12 +22,15 @@ from pathlib import Path
 
 import numpy as np
 
+from laban.faults import Fault
 from smd.doodle import Doodle, Recording
 from smd.errors import RecordingError
 from smd.files import replacing
+from smd.formats.file import RecordingFile
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import SourceFrame
 from smd.formats.table import Encoder, cells, is_row, line_of_row, number, read_table
-from smd.formats.tracks import Content, Track, fault, shown
+from smd.formats.tracks import Content, Track, shown
 from smd.geometry.arrays import FloatArray, IntArray
 
 SCHEMA = "smd.recording"
@@ -51,27 +54,27 @@ def matches(head: str) -> bool:
     return "," in row and not row.lstrip().startswith(("{", "["))
 
 
-def read(text: str, name: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return the tracks of a CSV.
 
     Raises
     ------
-    RecordingError
+    Fault
         If columns are missing, or a row or cell is not what its column says.
     """
-    lines = text.split("\n")
+    lines = file.text.split("\n")
     head = next(i for i, line in enumerate(lines) if is_row(line))
-    metadata = _metadata(name, lines[:head])
+    metadata = _metadata(lines[:head])
     if metadata.pop(GROWS, None):
         del lines[-1]  # after the last line end: nothing, or a row that was cut off
         if head == len(lines):
-            raise fault(name, "", "rows of poses", "a header that was cut off")
+            raise Fault("", "rows of poses", "a header that was cut off")
     header = [cell.lower() for cell in cells(lines[head], ",")]
     headerless = _is_number(header[0])
-    columns = _positional(name, head, header) if headerless else _named(name, head, header)
+    columns = _positional(head, header) if headerless else _named(head, header)
     first = head if headerless else head + 1
     devices: dict[str, float] = {}
-    values = read_table(name, lines, first, ",", columns, _encoders(columns, devices))
+    values = read_table(lines, first, ",", columns, _encoders(columns, devices))
     where = {column: i for i, column in enumerate(columns)}
     drawing = values[:, where["drawing"]] if "drawing" in where else None
     code = values[:, where["device"]] if "device" in where else np.zeros(len(values))
@@ -155,7 +158,7 @@ def _marks(doodle: Doodle) -> list[str]:
     return ["1" if mark else "0" for mark in doodle.drawing.tolist()]
 
 
-def _metadata(name: str, lines: Sequence[str]) -> dict[str, str]:
+def _metadata(lines: Sequence[str]) -> dict[str, str]:
     """Return the ``# key: value`` lines; schema and version are checked and left out."""
     metadata: dict[str, str] = {}
     for line in lines:
@@ -166,19 +169,18 @@ def _metadata(name: str, lines: Sequence[str]) -> dict[str, str]:
         del metadata["schema"]
         version = metadata.pop("version", "none")
         if version != str(VERSION):
-            raise fault(name, "", f"version {VERSION} of {SCHEMA}", f"version {version}")
+            raise Fault("", f"version {VERSION} of {SCHEMA}", f"version {version}")
     return metadata
 
 
-def _positional(name: str, index: int, cells_found: Sequence[str]) -> Sequence[str]:
+def _positional(index: int, cells_found: Sequence[str]) -> Sequence[str]:
     """Return the columns of a file without a header, or raise if it has more or fewer.
 
     The last four are a quaternion in an order that the file does not say.
     """
     columns = ("time_s", *_POSITION, *_QUATERNION)
     if len(cells_found) != len(columns):
-        raise fault(
-            name,
+        raise Fault(
             f"line {index + 1}",
             f"a header, or {len(columns)} columns (time, position, quaternion)",
             f"{len(cells_found)} columns without a header",
@@ -186,22 +188,21 @@ def _positional(name: str, index: int, cells_found: Sequence[str]) -> Sequence[s
     return columns
 
 
-def _named(name: str, index: int, header: Sequence[str]) -> Sequence[str]:
+def _named(index: int, header: Sequence[str]) -> Sequence[str]:
     """Return the header with one name for time, or raise what it lacks or repeats."""
     columns = ["time_s" if cell in _TIMES else cell for cell in header]
     wanted = ("time_s", *_POSITION, *_QUATERNION)
     missing = [column for column in wanted if column not in columns]
     place = f"line {index + 1}"
     if missing:
-        raise fault(
-            name,
+        raise Fault(
             place,
             f"a header with {', '.join(wanted)}",
             f"no {', '.join(missing)} in {shown(','.join(header))}",
         )
     for column in (*wanted, "device", "drawing"):
         if columns.count(column) > 1:
-            raise fault(name, place, f"one column {column}", str(columns.count(column)))
+            raise Fault(place, f"one column {column}", str(columns.count(column)))
     return columns
 
 
@@ -261,3 +262,6 @@ def _writable_device(device: str) -> str:
     if device != " ".join(device.split()) or not device:
         raise RecordingError(f"device: expected a name on one line, found {device!r}")
     return device
+
+
+FORMAT = RecordingFormat("native CSV", (".csv",), read, matches)

@@ -8,7 +8,8 @@ from itertools import islice
 
 import numpy as np
 
-from smd.formats.tracks import fault, shown
+from laban.faults import Fault
+from smd.formats.tracks import shown
 from smd.geometry.arrays import FloatArray
 
 Encoder = Callable[[str], float]
@@ -50,7 +51,6 @@ def number(text: str) -> float:
 
 
 def read_table(
-    name: str,
     lines: Sequence[str],
     first: int,
     delimiter: str | None,
@@ -61,8 +61,6 @@ def read_table(
 
     Parameters
     ----------
-    name
-        Of the file, for messages.
     lines
         All lines of the file; blank ones and comments do not count as rows.
     first
@@ -76,12 +74,12 @@ def read_table(
 
     Raises
     ------
-    RecordingError
+    Fault
         If there are no rows, a row has too few or too many cells, or a cell is not a number.
     """
     if not any(is_row(line) for line in islice(lines, first, None)):
         found = "none" if any(is_row(line) for line in lines) else "an empty file"
-        raise fault(name, "", "rows of poses", found)
+        raise Fault("", "rows of poses", found)
     try:
         values = np.loadtxt(
             islice(lines, first, None),
@@ -96,11 +94,10 @@ def read_table(
             return values
     except ValueError:
         pass  # also what a converter raises
-    return _read_line_by_line(name, lines, first, delimiter, columns, encoders)
+    return _read_line_by_line(lines, first, delimiter, columns, encoders)
 
 
 def _read_line_by_line(
-    name: str,
     lines: Sequence[str],
     first: int,
     delimiter: str | None,
@@ -114,30 +111,29 @@ def _read_line_by_line(
             continue
         row = cells(line, delimiter)
         if len(row) != len(columns):
-            raise fault(
-                name,
+            raise Fault(
                 f"line {index + 1}",
                 f"{len(columns)} columns ({', '.join(columns)})",
                 str(len(row)),
             )
         rows.append(
-            [_value(name, index, columns[i], cell, encoders.get(i)) for i, cell in enumerate(row)]
+            [_value(index, columns[i], cell, encoders.get(i)) for i, cell in enumerate(row)]
         )
     return np.array(rows, dtype=np.float64)
 
 
-def _value(name: str, index: int, column: str, cell: str, encoder: Encoder | None) -> float:
+def _value(index: int, column: str, cell: str, encoder: Encoder | None) -> float:
     """Return one cell's value, or raise the error that names it."""
     place = f"line {index + 1}"
     if encoder is None:
         try:
             return number(cell)
         except ValueError:
-            raise fault(name, place, f"a number in column {column}", shown(cell)) from None
+            raise Fault(place, f"a number in column {column}", shown(cell)) from None
     try:
         return encoder(cell)
     except ValueError as error:
-        raise fault(name, place, f"{error} in column {column}", shown(cell)) from None
+        raise Fault(place, f"{error} in column {column}", shown(cell)) from None
 
 
 def line_of_row(lines: Sequence[str], first: int, row: int) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from smd.errors import RecordingError
 from smd.formats.frame import SourceFrame
 from smd.geometry.arrays import FloatArray
 
@@ -59,9 +58,3 @@ def shown(found: object) -> str:
     """Return a value as a message shows it: on one line, not too long."""
     text = repr(found)
     return text if len(text) <= 40 else text[:36] + "…" + text[-1]
-
-
-def fault(name: str, place: str, expected: str, found: str) -> RecordingError:
-    """Return the error for one place in a file."""
-    where = f"{name}, {place}" if place else name
-    return RecordingError(f"{where}: expected {expected}, found {found}")

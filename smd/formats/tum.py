@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from functools import partial
 
+from smd.formats.file import RecordingFile
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import SourceFrame
 from smd.formats.native import ONLY_DEVICE
 from smd.formats.table import cells, is_row, line_of_row, number, read_table
@@ -29,16 +31,16 @@ def matches(head: str) -> bool:
         return False
 
 
-def read(text: str, name: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return the one track of a TUM trajectory.
 
     Raises
     ------
-    RecordingError
+    Fault
         If a row does not hold eight numbers.
     """
-    lines = text.split("\n")
-    values = read_table(name, lines, 0, None, COLUMNS, {})
+    lines = file.text.split("\n")
+    values = read_table(lines, 0, None, COLUMNS, {})
     track = Track(
         device=ONLY_DEVICE,
         time_s=values[:, 0],
@@ -47,3 +49,6 @@ def read(text: str, name: str) -> Content:
         place=partial(line_of_row, lines, 0),
     )
     return Content((track,), SourceFrame.ours(), clock_means_something=False)
+
+
+FORMAT = RecordingFormat("TUM", (".tum",), read, matches, only_named=(".txt",))

@@ -13,43 +13,43 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from laban.faults import Fault
+from smd.formats.file import RecordingFile
+from smd.formats.format import RecordingFormat
 from smd.formats.frame import METRES_PER_UNIT, Mount, SourceFrame
-from smd.formats.tracks import Content, Track, fault, shown
+from smd.formats.tracks import Content, Track, shown
 
 if TYPE_CHECKING:
     from pxr import Usd, UsdGeom
-
-SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 
 _FRONT = {"Y": "z", "Z": "-y"}
 """Where a prop faces that stands along the axes, by the axis that is up: as in CAD and Blender."""
 
 
-def read(path: Path, name: str) -> Content:
+def read(file: RecordingFile) -> Content:
     """Return a track for every animated prim.
 
     Raises
     ------
-    RecordingError
+    Fault
         If the file is no USD, its unit has no name here, or nothing in it is animated.
     """
     from pxr import Tf, Usd, UsdGeom
 
     try:
-        stage = Usd.Stage.Open(str(path))
+        stage = Usd.Stage.Open(str(file.path))
     except Tf.ErrorException as error:
         why = str(error).strip().splitlines()[-1]
-        raise fault(name, "", "a USD file", shown(why)) from error
+        raise Fault("", "a USD file", shown(why)) from error
     up = UsdGeom.GetStageUpAxis(stage)
-    frame = SourceFrame(up.lower(), _FRONT[up], "right", _unit(stage, name), "wxyz", Mount())
+    frame = SourceFrame(up.lower(), _FRONT[up], "right", _unit(stage), "wxyz", Mount())
     prims = list(_animated(stage))
     if not prims:
-        raise fault(name, "", "a prim whose transform is animated", "none")
+        raise Fault("", "a prim whose transform is animated", "none")
     names = [prim.GetPrim().GetName() for prim in prims]
     tracks = tuple(
         _track(prim, own if names.count(own) == 1 else str(prim.GetPath()), stage)
@@ -58,7 +58,7 @@ def read(path: Path, name: str) -> Content:
     return Content(tracks, frame, order_is_given=True)
 
 
-def _unit(stage: Usd.Stage, name: str) -> str:
+def _unit(stage: Usd.Stage) -> str:
     """Return the unit that is as long as the stage's."""
     from pxr import UsdGeom
 
@@ -67,7 +67,7 @@ def _unit(stage: Usd.Stage, name: str) -> str:
         if abs(metres - length) < 1e-6 * length:
             return unit
     expected = f"metersPerUnit of {', '.join(map(str, METRES_PER_UNIT.values()))}"
-    raise fault(name, "", expected, f"{metres:g}")
+    raise Fault("", expected, f"{metres:g}")
 
 
 def _animated(stage: Usd.Stage) -> Iterator[UsdGeom.Xformable]:
@@ -110,3 +110,7 @@ def _track(prim: UsdGeom.Xformable, device: str, stage: Usd.Stage) -> Track:
 def _place(device: str, times: list[float], i: int) -> str:
     """Return where pose ``i`` of a device stands in the file."""
     return f"prim {device!r}, time code {times[i]:g}"
+
+
+FORMAT = RecordingFormat("USD", (), read, only_named=(".usd", ".usda", ".usdc", ".usdz"))
+"""A USD file may as well be an animation that was made of a recording."""

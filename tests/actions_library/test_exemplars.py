@@ -160,7 +160,7 @@ def test_an_exemplar_outside_the_folder_is_refused(folder, path):
     document = json.loads(file.read_text(encoding="utf-8"))
     document["actions"][0]["exemplar"] = path
     file.write_text(json.dumps(document))
-    with pytest.raises(LibraryError, match=r"library\.json: action 'hurl': exemplar: .*inside"):
+    with pytest.raises(LibraryError, match=r"library\.json: action 'hurl'.exemplar: .*inside"):
         load_library(folder)
 
 
@@ -170,7 +170,7 @@ def test_what_it_was_learned_from_is_a_list_of_text(folder, wrong):
     document = json.loads(file.read_text(encoding="utf-8"))
     document["actions"][0]["learned_from"] = wrong
     file.write_text(json.dumps(document))
-    with pytest.raises(LibraryError, match=r"library\.json: action 'hurl': learned_from"):
+    with pytest.raises(LibraryError, match=r"library\.json: action 'hurl'.learned_from"):
         load_library(folder)
 
 
@@ -217,7 +217,7 @@ def test_whose_examples_are_is_told_in_numbers_that_there_are(folder, own):
     document = json.loads(file.read_text(encoding="utf-8"))
     document["actions"][0]["own"] = own
     file.write_text(json.dumps(document))
-    with pytest.raises(LibraryError, match=r"hurl.*: (own: )+expected"):
+    with pytest.raises(LibraryError, match=r"hurl.*own: expected"):
         load_library(folder)
 
 

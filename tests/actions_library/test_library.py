@@ -190,7 +190,7 @@ def test_an_unknown_action_is_answered_with_those_there_are(library):
         ({"character": "C:x"}, "character"),
         ({"actions": {}}, "actions"),
         ({"actions": ["walk"]}, r"actions\[0\]"),
-        ({"actions": [{"name": "walk"}]}, "action 'walk': .*no such key"),
+        ({"actions": [{"name": "walk"}]}, "action 'walk': expected the key .travels., found none"),
         ({"actions": [{"name": "w", "pattern": "T_Q", "clip": "a"}]}, "pattern"),
         ({"actions": [{"name": "w", "pattern": 5, "clip": "a"}]}, "pattern"),
         ({"actions": [{"name": "w", "pattern": "T_Z (", "clip": "a"}]}, r"'w'.*character 6"),
@@ -206,6 +206,22 @@ def test_a_wrong_entry_is_named_with_its_file(library, tmp_path, change, named):
         load_library(folder)
     assert "library.json" in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[" * 100_000, "expected JSON, found JSON nested too deeply"),
+        ('{"schema":', "line 1, column 11: expected JSON, found Expecting value"),
+        ("[]", "expected an object, found a list"),
+    ],
+)
+def test_what_is_no_table_of_contents_is_named_with_its_file(tmp_path, text, said):
+    file = tmp_path / "library.json"
+    file.write_text(text)
+    with pytest.raises(LibraryError) as caught:
+        load_library(tmp_path)
+    assert str(caught.value) == f"{file}: {said}"
 
 
 @pytest.mark.parametrize(

@@ -40,3 +40,11 @@ def test_reading_does_not_load_what_fits():
     )
     assert "laban.linear" in done.stdout
     assert "sklearn" not in done.stdout
+
+
+def test_importing_laban_loads_no_numpy_and_every_public_name_is_there():
+    code = "import sys, laban; print(*sys.modules); print(*map(laban.__getattr__, laban.__all__))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60
+    )
+    assert "numpy" not in done.stdout.splitlines()[0].split()

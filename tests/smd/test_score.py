@@ -376,7 +376,7 @@ def test_a_device_that_appears_twice_is_refused():
         ("[" * 100_000, "nested too deeply"),
         ("[" * 100_000 + "]" * 100_000, "nested too deeply"),
         ('{"schema": "smd.score", "schema": "smd.score"}', 'the key "schema" twice'),
-        ("9" * 5000, "expected a Score, got: "),
+        ("9" * 5000, "expected JSON, found "),
         ("[]", "expected an object, found a list"),
     ],
 )

@@ -292,11 +292,11 @@ def _throw(actions):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda rows: _throw(rows).update(pattern="T_Z ("), r"'throw': pattern.*character 6"),
-        (lambda rows: _throw(rows).update(pattern="T_Z T_Q"), r"'throw': pattern.*character 5"),
+        (lambda rows: _throw(rows).update(pattern="T_Z ("), r"'throw'.pattern: .*character 6"),
+        (lambda rows: _throw(rows).update(pattern="T_Z T_Q"), r"'throw'.pattern: .*character 5"),
         (lambda rows: _throw(rows).update(pattern="T_Z* T_Y*"), r"'throw'.*nothing at all"),
         (lambda rows: rows.append(rows[0]), r"'\w+' appears twice"),
-        (lambda rows: _throw(rows).update(exemplar="../x.npz"), r"'throw': exemplar.*inside"),
+        (lambda rows: _throw(rows).update(exemplar="../x.npz"), r"'throw'.exemplar: .*inside"),
         (lambda rows: _throw(rows).update(exemplar="exemplars/no.npz"), r"no\.npz"),
     ],
 )

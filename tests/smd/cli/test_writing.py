@@ -77,7 +77,8 @@ def write_frames(performance, path) -> None:
 def test_another_format_needs_one_line_and_refuses_what_only_usd_has(
     animate, tmp_path, monkeypatch
 ):
-    monkeypatch.setitem(exporters.WRITERS, ".xyz", f"{__name__}:write_frames")
+    frames = exporters.ExportFormat((".xyz",), lambda: write_frames)
+    monkeypatch.setattr(exporters, "FORMATS", (*exporters.FORMATS, frames))
     code, _, err = animate("out.xyz", "--phrases")
     assert code == 0, err
     assert int((tmp_path / "out.xyz").read_text()) > 100

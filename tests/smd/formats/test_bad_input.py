@@ -142,8 +142,12 @@ def refused(path: Path, **options) -> str:
             "line 1: expected 8 columns (timestamp, tx, ty, tz, qx, qy, qz, qw), found 7",
         ),
         ("0 1 2 3 0 0 0 1\n1 a 2 3 0 0 0 1\n", "line 2: expected a number in column tx, found 'a'"),
-        ("{", "line 1: expected JSON, found Expecting property name enclosed in double quotes"),
-        ('{"a":' * 100_000, "expected devices with poses, found JSON nested too deeply"),
+        (
+            "{",
+            "line 1, column 2: expected JSON, "
+            "found Expecting property name enclosed in double quotes",
+        ),
+        ('{"a":' * 100_000, "expected JSON, found JSON nested too deeply"),
         ('{"schema": 1, "x": 2}', "expected JSON with devices that have poses, found 'schema, x'"),
         ("[1, 2]", "expected JSON with devices that have poses, found 'list'"),
         ('{"a": {"poses": []}}', "expected JSON with devices that have poses, found 'a'"),
