@@ -71,6 +71,8 @@ class Parser:
         cast = cast_of(self.library)
         libraries = dict.fromkeys((cast.shared, *cast.own.values()))
         follows = self.unexplained == "follow"
+        if self.devices is not None:
+            object.__setattr__(self, "devices", tuple(self.devices))
         object.__setattr__(self, "_cast", cast)
         object.__setattr__(self, "_recognizers", {one: self._compiled(one) for one in libraries})
         object.__setattr__(self, "_paces", {one: paces(one) for one in libraries if follows})
