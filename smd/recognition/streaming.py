@@ -61,9 +61,9 @@ class RecognitionStream:
 
     Samples are smoothed as they come (`SmoothingStream`). Every `BLOCK_S`, and when a detection
     falls due, the motion that is not decided yet is cut into tokens and given to the spotter, as if
-    it were all there is. Detections that ended ``horizon_s`` ago (less two samples) are final; the rest
-    is decided again next time. So a detection is final as soon as the offline pass over what has
-    come says that it ended so long ago. ``docs/streaming.md`` tells where that differs from the
+    it were all there is. Detections that ended ``horizon_s`` ago (less two samples) are final; the
+    rest is decided again next time. So a detection is final as soon as the offline pass over what
+    has come says that it ended so long ago. ``docs/streaming.md`` tells where that differs from the
     offline pass over everything.
 
     Parameters
