@@ -1,4 +1,6 @@
-"""Naive Bayes for two classes, and how relevant a feature is to telling them apart [1]_.
+"""The paper's method for Effort, to compare with: naive Bayes for two classes [1]_.
+
+It says how relevant a feature is to telling the classes apart, as well.
 
 The two classes of an axis are its poles: *low* (sustained, light, …) and *high* (sudden,
 strong, …). Products of densities are sums of logarithms here: 50 factors would underflow.
