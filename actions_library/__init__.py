@@ -1,1 +1,1 @@
-"""What can be performed: actions, their patterns and clips, and the character they move."""
+"""Libraries: actions, their patterns and clips, and the character that these move."""

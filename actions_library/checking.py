@@ -1,4 +1,4 @@
-"""Checking: whether a library is whole, and what in it will surprise."""
+"""Checking: faults of a library, and what in it is likely to surprise."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Findings:
 
 
 def check_library(library: Library) -> Findings:
-    """Read every file of a library and compare its parts; one line a finding."""
+    """Read every file of a library and compare its parts; one line per finding."""
     return Findings(tuple(_faults(library)), tuple(_warnings(library)))
 
 
@@ -48,7 +48,7 @@ def _faults(library: Library) -> Iterator[str]:
 
 
 def _warnings(library: Library) -> Iterator[str]:
-    """Yield what will surprise."""
+    """Yield what is likely to surprise."""
     drawn = [action.name for action in library.actions if action.pattern is not None]
     if not drawn:
         yield f"{library.folder}: no action has a pattern: nothing will be recognised"

@@ -1,4 +1,4 @@
-"""Extension: one more action for a library on disk, all of it or nothing."""
+"""Extension: one more action for a library on disk, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def require_new(library: Library, name: str) -> None:
 def clip_source(
     action: str, clip: str | None, shelves: Sequence[Library]
 ) -> tuple[Library, Action]:
-    """Return whose clip shows a new action: an action, and the library that has it.
+    """Return the clip for a new action: an action, and the library that has it.
 
     Parameters
     ----------
@@ -278,7 +278,7 @@ def require_place(folder: Path) -> None:
 
 
 def _resting(action: Action, among: tuple[Action, ...]) -> Action:
-    """Return an action that rests as it did where what it rests in came along, else idling."""
+    """Return an action with its ``rest``, if that action is in the library too, else without."""
     came = action.rest in {other.name for other in among}
     return action if came else replace(action, rest="")
 

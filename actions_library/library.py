@@ -1,4 +1,4 @@
-"""Library: what can be performed."""
+"""Library: actions, their clips and the character."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Credit:
-    """Whose a clip is, and what may be done with it; empty where nobody said."""
+    """Author and licence of a clip; empty where they are not known."""
 
     author: str = ""
     licence: str = ""
@@ -115,7 +115,7 @@ class Library(Frozen):
         raise LibraryError(f"library {self.name!r}: expected one of {known}; got {name!r}")
 
     def credit(self, name: str) -> Credit:
-        """Return whose the clip of an action is."""
+        """Return author and licence of an action's clip."""
         return self.credits.get(name, Credit())
 
     def clip(self, name: str) -> Clip:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 def numbered(names: Iterable[str]) -> list[str]:
-    """Return the names in order, each that was there before with a number behind it."""
+    """Return the names in order, repeated ones with a number behind them."""
     taken: set[str] = set()
     result = []
     for name in names:

@@ -1,4 +1,4 @@
-"""How a stage measures space: which axis is up, and how long its unit is.
+"""The coordinate frame of a USD stage: its up axis and its unit.
 
 Our own space is metres, Y up. A stage of another frame holds the same world in other coordinates:
 every point, transform and rotation is changed, so that no transform above them is left for a
@@ -50,12 +50,12 @@ class StageFrame:
 
     @classmethod
     def of(cls, stage: Usd.Stage) -> StageFrame:
-        """Return the frame that a stage says it has."""
+        """Return the frame that a USD stage declares."""
         up = UsdGeom.GetStageUpAxis(stage)
         return cls(str(up).lower(), UsdGeom.GetStageMetersPerUnit(stage))
 
     def mark(self, stage: Usd.Stage) -> None:
-        """Let a stage say that this is its frame."""
+        """Declare this frame in a USD stage."""
         UsdGeom.SetStageUpAxis(stage, self.up.upper())
         UsdGeom.SetStageMetersPerUnit(stage, self.unit_m)
 

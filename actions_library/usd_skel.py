@@ -31,7 +31,7 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import matrix_from_quaternion, normalized
 
 SKELETON, ANIMATION, MATERIALS = "Skeleton", "Animation", "Materials"
-"""Names of what lies under a character's SkelRoot, beside its meshes."""
+"""Names of the prims under a character's SkelRoot, beside its meshes."""
 
 _ROLES = "smd:roles"
 

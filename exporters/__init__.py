@@ -28,7 +28,7 @@ class Writer(Protocol):
 
 
 class StageWriter(Protocol):
-    """A `Writer` of stages, with coordinates of their own and variants."""
+    """A `Writer` of USD stages, which may have their own coordinates and variants."""
 
     def __call__(
         self,
@@ -38,7 +38,7 @@ class StageWriter(Protocol):
         neutral: Performance | None = ...,
         frame: StageFrame = ...,
     ) -> None:
-        """Write a performance; what else is asked for is told at `write`."""
+        """Write a performance; the options are those of `write`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ def _usd() -> StageWriter:
 
 
 FORMATS = (ExportFormat((".usda", ".usdc", ".usdz"), _usd, _usd),)
-"""A file's suffix says which one it is to have."""
+"""All output formats; a file's suffix decides which one is used."""
 
 
 def write(
@@ -83,15 +83,14 @@ def write(
     path
         Replaced as a whole once written.
     neutral
-        The same Score performed without expression, to be a variant beside it: USD alone.
+        The same Score performed without expression, written as a variant: USD alone.
     frame
-        Coordinates of the stage, by default ours: USD alone.
+        Coordinates of the USD stage, by default ours: USD alone.
 
     Raises
     ------
     ExportError
-        If the suffix is of none of `FORMATS`, its format lacks an option that is asked for, or the
-        file cannot be written.
+        If no format has the suffix, the format lacks a given option, or the file cannot be written.
     """
     path = Path(path)
     found = _format_of(path)

@@ -1,4 +1,4 @@
-"""One action at a glance: its gesture, drawn by the prop, beside eight moments of its clip."""
+"""A picture of one action: the prop's gesture beside eight moments of the clip."""
 
 from __future__ import annotations
 

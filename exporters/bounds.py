@@ -1,4 +1,4 @@
-"""The box that a moving character stays in, without skinning a single point."""
+"""The bounding box of a moving character, without skinning any point."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from smd.geometry.arrays import FloatArray
 
 
 def joint_reach_m(character: Character) -> FloatArray:
-    """Return how far from each joint the points that it moves are, ``(j,)``; -inf where none."""
+    """Return the greatest distance of each joint's points from it, ``(j,)``; -inf without any."""
     reach = np.full(len(character.skeleton), -np.inf)
     joints = character.skeleton.world_from_bind[:, :3, 3]
     for mesh in character.meshes:

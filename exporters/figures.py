@@ -1,4 +1,4 @@
-"""Reading skinned characters back from any UsdSkel file, with USD's own skinning.
+"""Skinned characters, read back from any UsdSkel file with USD's own skinning.
 
 The pictures are drawn from the file that was written, by another reader than the code that
 wrote it: what they show is what other programs will find.
@@ -27,7 +27,7 @@ _PLAIN_RGB: RGB = (0.20, 0.55, 0.53)
 
 @dataclass(frozen=True, eq=False)
 class Figure:
-    """One skinned character of a stage.
+    """One skinned character of a USD stage.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Figure:
     _prop: Any
 
     def points_m(self, time_code: float) -> FloatArray:
-        """Return where the points are, ``(p, 3)``, metres, Y up."""
+        """Return the positions of the points, ``(p, 3)``, metres, Y up."""
         transforms = self._skeleton.ComputeSkinningTransforms(time_code)
         world = self._world(time_code)
         return (
@@ -59,7 +59,7 @@ class Figure:
         )
 
     def joints_m(self, time_code: float) -> FloatArray:
-        """Return where the joints are, ``(j, 3)``, metres, Y up."""
+        """Return the positions of the joints, ``(j, 3)``, metres, Y up."""
         transforms = np.array(self._skeleton.ComputeJointSkelTransforms(time_code))
         world = self._world(time_code)
         return np.asarray(transforms[:, 3, :3] @ world[:3, :3] + world[3, :3])
@@ -76,7 +76,7 @@ class Figure:
         return np.asarray((front_of_bind @ turns).mean(axis=0) @ world)
 
     def prop_m(self, time_code: float) -> FloatArray | None:
-        """Return where its prop is, ``(3,)``, metres, Y up; None where the file has none."""
+        """Return the position of its prop, ``(3,)``, metres, Y up; None where the file has none."""
         if not self._prop:
             return None
         world = np.array(self._prop.ComputeLocalToWorldTransform(time_code))

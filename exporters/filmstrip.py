@@ -1,4 +1,4 @@
-"""A performance at a glance: a row per phrase, eight moments a row, drawn without a screen.
+"""A performance as one picture: a row per phrase, eight moments a row, drawn without a screen.
 
 The file is read back with USD's own skinning and drawn by VTK in a process of its own: where a
 machine has nothing to draw with, VTK may end the process, and only that one.
@@ -19,7 +19,7 @@ ROWS = 16
 """Most rows of one filmstrip; a longer performance shows its first ones and says so."""
 
 REFUSED = 3
-"""Exit code of the drawing process when it says itself what is wrong."""
+"""Exit code of the drawing process when it printed what is wrong."""
 
 _TIMEOUT_S = 600.0
 
@@ -86,6 +86,6 @@ def _draw_elsewhere(usd_path: Path, temporary: Path, png_path: Path, rows: int) 
 
 
 def _reason(stderr: str) -> str:
-    """Return the last line a process said, without VTK's colours and log columns."""
+    """Return the last line that a process printed, without VTK's colours and log columns."""
     lines = re.sub(r"\x1b\[[0-9;]*m", "", stderr).strip().splitlines()
     return lines[-1].rsplit("| ", 1)[-1] if lines else "no reason given"

@@ -1,4 +1,4 @@
-"""One performer on a stage: its character, what it drew, and the prop it was drawn with."""
+"""One performer of a USD stage: its character, its doodles and its prop."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Performer:
 def define_performer(
     stage: Usd.Stage, places: Places, performer: Performer, action_colors: Mapping[str, RGB]
 ) -> FloatArray:
-    """Define a performer and return the boxes that its body is in, ``(n, 2, 3)`` metres, Y up."""
+    """Define a performer and return the bounding boxes of its body, ``(n, 2, 3)`` metres, Y up."""
     actor = performer.actor
     character = actor.character
     colors = performer_colors(character, performer.index)
@@ -85,7 +85,7 @@ def define_performer(
 
 
 def _define_variants(root: UsdSkel.Root, expressive: Actor, neutral: Actor) -> FloatArray:
-    """Define the two ways of acting as variants, and return the box of both, ``(n, 2, 3)``."""
+    """Define both animations as variants, and return the boxes of both, ``(n, 2, 3)``."""
     variants = root.GetPrim().GetVariantSets().AddVariantSet(EXPRESSION)
     boxes = {}
     for name, actor in ((NEUTRAL, neutral), (EXPRESSIVE, expressive)):
@@ -97,7 +97,7 @@ def _define_variants(root: UsdSkel.Root, expressive: Actor, neutral: Actor) -> F
 
 
 def _define_acting(root: UsdSkel.Root, actor: Actor) -> FloatArray:
-    """Define how an actor moves, and return the box it is in at each frame, ``(n, 2, 3)``."""
+    """Define an actor's animation, and return its bounding box in each frame, ``(n, 2, 3)``."""
     stage, character = root.GetPrim().GetStage(), actor.character
     path = f"{root.GetPath()}/{ANIMATION}"
     define_animation(stage, path, character.skeleton, *actor.poses)

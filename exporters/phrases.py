@@ -1,4 +1,4 @@
-"""Phrases as named ranges of time: in a stage's metadata, and as a table beside it."""
+"""Phrases as named ranges of time: in the metadata of a USD file, and as a table beside it."""
 
 from __future__ import annotations
 

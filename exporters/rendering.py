@@ -1,4 +1,4 @@
-"""Drawing skinned characters without a screen: one plotter, whose points move between pictures."""
+"""Drawing skinned characters without a screen: one plotter, updated between pictures."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from exporters.viewpoint import Viewpoint
 from smd.geometry.arrays import FloatArray, IntArray
 
 SUPERSAMPLING = 2
-"""Pictures are drawn that much larger and averaged down; the renderer's own smoothing differs
-between machines."""
+"""Factor by which pictures are drawn larger, then averaged down; the renderer's own smoothing
+differs between machines."""
 
 _GROUND_RGB = (0.972, 0.975, 0.98)
 _MINOR_RGB, _MAJOR_RGB = (0.86, 0.87, 0.895), (0.72, 0.745, 0.785)
@@ -97,7 +97,7 @@ class Renderer:
         ]
 
     def picture(self, points_m: Mapping[int, FloatArray]) -> Image.Image:
-        """Return the picture with the bodies of these indices in it, each where it is given."""
+        """Return the picture with the bodies of these indices, each with its given points."""
         for index, (body, actors) in enumerate(self._bodies):
             for actor in actors:
                 actor.SetVisibility(index in points_m)

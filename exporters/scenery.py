@@ -1,4 +1,4 @@
-"""What is on stage beside the characters: the doodle, the prop, the ground and a camera."""
+"""What a USD file holds beside the characters: the doodle, the prop, the ground and a camera."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ DOODLE_WIDTH_M = 0.03
 GROUND_RGB: RGB = (0.78, 0.79, 0.80)
 PROP_RGB: RGB = (0.95, 0.55, 0.10)
 BACK = np.array([0.45, 0.35, 1.0]) / np.linalg.norm([0.45, 0.35, 1.0])
-"""From the performers to the camera."""
+"""Direction from the performers to the camera."""
 
 WIDE = 16.0 / 9.0
 _HEIGHT_MM, _FOCAL_MM = 20.25, 40.0  # of Super 35 film, the lens long enough to bend nothing
 _HALF_HEIGHT = 0.5 * _HEIGHT_MM / _FOCAL_MM / 1.08  # room around what is seen
 
 MARGIN_M = 2.0
-"""Of ground around everything that is on it."""
+"""Margin of the ground around everything on it."""
 
 REACH_M = 0.3
-"""How far a prop reaches from where it is, at most."""
+"""Greatest extent of a prop from its position."""
 
 # A dart, its nose to +Z and its fin to +Y: it shows which way the prop faces and which is up.
 _DART_M = 0.4 * np.array(
@@ -102,7 +102,7 @@ def doodle_boxes(actor: Actor) -> list[FloatArray]:
 
 
 def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performance) -> None:
-    """Define a dart that is where and how the prop was, hidden while tracking was lost."""
+    """Define a dart with the prop's poses, hidden while tracking was lost."""
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     position, orientation, tracked = prop_poses(actor.doodles, time_s)
     frame = StageFrame.of(stage)
@@ -187,7 +187,7 @@ def define_camera(stage: Usd.Stage, path: str, boxes: Sequence[FloatArray]) -> N
 def camera_place(
     boxes_m: FloatArray, back: FloatArray, half_width: float, half_height: float
 ) -> tuple[FloatArray, float]:
-    """Return the nearest place from which boxes are seen whole, and how far their middle is.
+    """Return the nearest position that sees whole boxes, and the distance of their middle.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ COLUMNS = 8
 CELL_PX = (250, 270)
 LABEL_PX, HEADER_PX, GAP_PX, MARGIN_PX = 215, 44, 4, 8
 WIDE_M = 4.0
-"""From this width of a picture on, the grid has a line each metre, else each half."""
+"""Width of a picture from which on the grid has a line each metre, else each half."""
 
 WINDOW_S = 1.5
 """Length of a row where there are no phrases; longer where there would be too many rows."""
@@ -32,10 +32,10 @@ WINDOW_S = 1.5
 _PATH_SAMPLES = 48
 _RAISED_RAD = np.radians(14.0)
 _BESIDE_RAD = np.radians([50.0, -50.0, 35.0, -35.0, 22.0, -22.0])
-"""How far beside the body's front the camera may stand, the likeliest view first."""
+"""Angles of the camera from the body's front, the preferred view first."""
 
 _WORTH = 0.85
-"""A less likely view is taken where its pictures are at most this wide of the best one's."""
+"""A less preferred view is used if its pictures are at most this share of the best one's width."""
 
 _WINDOW_RGB: RGB = (0.12, 0.47, 0.71)
 _INK, _FAINT, _PAPER, _FRAME = (35, 38, 42), (96, 102, 110), (250, 250, 250), (205, 208, 213)
@@ -126,7 +126,7 @@ def _draw_row(
 
 
 def _body_path(scene: Scene, figure: Figure, row: Row) -> FloatArray:
-    """Return where the middle of the body's joints goes, ``(n, 3)``."""
+    """Return the path of the mean of the body's joints, ``(n, 3)``."""
     times_s = np.linspace(row.start_s, row.end_s, _PATH_SAMPLES).tolist()
     return np.array([figure.joints_m(scene.time_code(t)).mean(axis=0) for t in times_s])
 
@@ -155,7 +155,7 @@ def _viewpoint(figure: Figure, codes: list[float], points: FloatArray) -> Viewpo
 
 
 def _drawn_path(scene: Scene, figure: Figure, row: Row) -> FloatArray | None:
-    """Return where the prop goes, ``(n, 3)``; None where the file has no prop."""
+    """Return the path of the prop, ``(n, 3)``; None where the file has no prop."""
     times_s = np.linspace(row.start_s, row.end_s, _PATH_SAMPLES).tolist()
     places = [figure.prop_m(scene.time_code(t)) for t in times_s]
     return None if places[0] is None else np.array(places)
@@ -206,7 +206,7 @@ def _font(size_px: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
 
 
 def main(arguments: list[str]) -> int:
-    """Draw, and say in one line on the standard error what went wrong."""
+    """Draw, or print in one line on the standard error what went wrong."""
     usd_path, png_path, rows = arguments
     try:
         draw_filmstrip(Path(usd_path), Path(png_path), int(rows))

@@ -1,4 +1,4 @@
-"""What was understood of a recording, under the trajectory it was understood from.
+"""What was recognised in a recording, drawn below its trajectory.
 
 For each device, on one time axis: where the prop went and how fast, the tokens of its movement,
 the phrases of the Score, and their Effort; where tracking was lost is hatched. What the Score
@@ -39,7 +39,7 @@ _SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62,
 _LETTER_INCHES = 0.066  # at 8 points, of most names
 _AXIS_COLORS = {"x": "#d6455d", "y": "#37a562", "z": "#3b6fd4"}
 _HALVES = {"": (0.08, 0.84), "upper": (0.53, 0.41), "lower": (0.06, 0.41)}
-"""Where in a lane a block stands: its bottom and height as shares of the lane."""
+"""Bottom and height of a block, as shares of its lane."""
 
 _INK, _FAINT, _RULE = "#23262a", "#60666e", "#d5d8dc"
 

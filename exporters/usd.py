@@ -44,7 +44,7 @@ START_KEY = "smd:start_s"
 _IN_LAYER = Places(*(f"/{PERFORMER}/{name}" for name in ("Actor", "Doodle", "Prop")))
 
 Files = dict[Path, Callable[[Path], None]]
-"""What writes each of the files that belong together (`smd.files.write_together`)."""
+"""The writer of each of the files that belong together (`smd.files.write_together`)."""
 
 
 def write_usd(
@@ -66,7 +66,7 @@ def write_usd(
         The same Score performed without expression: it becomes the variant ``neutral`` of each
         character's variant set ``expression``, and ``performance`` the variant ``expressive``.
     frame
-        Coordinates of the stage.
+        Coordinates of the USD stage.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def write_usd_layers(
 def usd_file(
     performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
 ) -> Files:
-    """Return what writes the file of `write_usd`."""
+    """Return the writer of the file of `write_usd`."""
     layer = performance_stage(performance, neutral=neutral, frame=frame).GetRootLayer()
     return {path: partial(_export, layer, path)}
 
@@ -103,7 +103,7 @@ def usd_file(
 def usd_layers(
     performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
 ) -> Files:
-    """Return what writes the files of `write_usd_layers`, the one that refers to others last."""
+    """Return the writers of `write_usd_layers`; the file that refers to others is the last."""
     if path.suffix.lower() not in (".usda", ".usdc"):
         raise ExportError(f"{path}: expected .usda or .usdc for layers, found {path.suffix}")
     stage = _new_stage(performance, ROOT, frame)
@@ -147,7 +147,7 @@ def performance_stage(
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
 ) -> Usd.Stage:
-    """Return a performance as a stage in memory; parameters are those of `write_usd`."""
+    """Return a performance as a USD stage in memory; parameters are those of `write_usd`."""
     stage = _new_stage(performance, ROOT, frame)
     _define_scopes(stage)
     colors = _colors(performance)
@@ -180,7 +180,7 @@ def _define_scopes(stage: Usd.Stage) -> None:
 def _define_scenery(
     stage: Usd.Stage, performance: Performance, boxes: Sequence[FloatArray]
 ) -> None:
-    """Define what stands around the performers, and write what is performed."""
+    """Define ground and camera, and write the custom data of the layer."""
     define_ground(stage, f"{SCENERY}/Ground", boxes, performance.terrain)
     define_camera(stage, f"{SCENERY}/Camera", boxes)
     stage.GetRootLayer().customLayerData = {
@@ -214,7 +214,7 @@ def _places(name: str) -> Places:
 
 
 def _export(layer: Sdf.Layer, path: Path, temporary: Path) -> None:
-    """Write a layer to where it waits to become ``path``."""
+    """Write a layer to a temporary file that is to become ``path``."""
     try:
         if path.suffix.lower() == ".usdz":
             write_package(layer, temporary)

@@ -1,8 +1,8 @@
-"""Carrying a movement over to another skeleton of the same kind, by the roles of its joints.
+"""Retargeting a movement to another skeleton of the same kind, by the roles of its joints.
 
-What a joint turned from its rest pose, it turns on the other body too, after the difference of
-the two rest poses is taken away: a bone that points down at rest here and aside there points the
-same way in every pose. The pelvis goes as high as the legs are long.
+A joint's rotation from its rest pose is applied to the other body too, after the difference of the
+two rest poses is removed: a bone that points down at rest in one and sideways in the other points
+the same way in every pose. The movement of the pelvis is scaled by leg length.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LEAST_LEG = 0.4
 
 
 def partners(source: BodyPlan, target: BodyPlan) -> dict[int, int]:
-    """Return for joints of a target the joint of a source that moves it.
+    """Return for joints of a target the corresponding joint of a source.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def _partner(limb: LimbPlan, own: BodyPlan, other: BodyPlan) -> LimbPlan | None:
 
 
 def _along(source: tuple[int, ...], target: tuple[int, ...]) -> Iterator[tuple[int, int]]:
-    """Yield partners in two chains of any length: the last ones, and in between by share."""
+    """Yield corresponding joints in two chains of any length: the last ones, others by share."""
     for i, joint in enumerate(target):
         share = (i + 1) / len(target)
         if source:
@@ -72,7 +72,7 @@ def _along(source: tuple[int, ...], target: tuple[int, ...]) -> Iterator[tuple[i
 
 
 def _limb(source: LimbPlan, target: LimbPlan) -> Iterator[tuple[int, int]]:
-    """Yield partners in two limbs: the three that bend, what is before them, what is beyond."""
+    """Yield corresponding joints in two limbs: the three of its bones, those before and beyond."""
     yield from zip(
         (target.upper, target.middle, target.end),
         (source.upper, source.middle, source.end),

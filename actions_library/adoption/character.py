@@ -24,12 +24,12 @@ from smd.geometry.rotations import (
 )
 
 GROUND_ROOT = "ground_root"
-"""Name of the joint that carries travel and heading; numbered where a file has one."""
+"""Name of the joint that carries the root motion; numbered where a file has that name."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Standing:
-    """How an imported figure has to be turned and shifted to stand at the origin, facing +Z.
+    """Rotation and shift that make an imported figure stand at the origin, facing +Z.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Standing:
 
 
 def plan_of(imported: Imported, *, front: Sequence[float] | None = None) -> BodyPlan:
-    """Return how an imported skeleton is built; ``front`` overrules the guess of where it faces."""
+    """Return the body plan of an imported skeleton; ``front`` overrides the guess of its front."""
     skeleton = imported.skeleton
     _, place = rest_pose(skeleton)
     return body_plan(skeleton.joints, skeleton.parents.tolist(), place, front=front)
@@ -56,7 +56,7 @@ def rest_pose(skeleton: Skeleton) -> tuple[FloatArray, FloatArray]:
 
 
 def standing_of(imported: Imported, plan: BodyPlan) -> Standing:
-    """Return how a figure has to be turned and shifted.
+    """Return the rotation and shift that make a figure stand.
 
     The ground is below its lowest point; the origin between its feet, or below its pelvis.
     """
@@ -103,7 +103,7 @@ def adopted_character(
 def _has_ground_root(skeleton: Skeleton, standing: Standing) -> bool:
     """Return whether a figure stands already, and its first joint on the ground between its feet.
 
-    Then that joint takes travel and heading; all others must hang from it.
+    Then that joint is the ground root; all others must be its descendants.
     """
     there = np.linalg.norm(skeleton.rest_translation_m[0]) < 1e-3 * standing.height_m
     level = abs(float(skeleton.rest_rotation_xyzw[0] @ IDENTITY_XYZW)) > 1.0 - 1e-9

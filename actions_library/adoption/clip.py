@@ -1,4 +1,4 @@
-"""An imported animation as a clip of a character: carried over, rooted on the ground, labelled."""
+"""An imported animation as a clip of a character: retargeted, with ground root and labels."""
 
 from __future__ import annotations
 
@@ -37,26 +37,26 @@ from smd.geometry.rotations import (
 )
 
 SAME_BONE = 0.02
-"""How much bones of one skeleton may differ in length, as a share of the character's height."""
+"""Greatest difference in length of equal bones, as a share of the character's height."""
 
 SAME_REST_COSINE = 0.996
-"""Of half the angle by which joints of one skeleton may differ at rest: 10 degrees."""
+"""Cosine of half the angle by which equal joints may differ at rest: 10 degrees."""
 
 
 MOST_HOVERING = 0.2
 """Height of the feet at their lowest, in leg lengths, that is taken for a mistake."""
 
 TREADMILL_TOLERANCE = 2.5
-"""How much higher and faster than usual a foot still touches where it slid as on a treadmill: the
-speed of the belt is one for the whole cycle, that of the feet is not."""
+"""Factor on the thresholds of a contact on a treadmill: the speed of the belt is constant in a
+cycle, that of the feet is not."""
 
 CLOSING = 0.25
-"""Last share of a cycle over which the gap to its beginning is closed."""
+"""Last share of a cycle, over which the gap to its beginning is closed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Adopted:
-    """A clip, and what was found out about it.
+    """A clip, and what was estimated about it.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ def adopted_clip(
 
 
 class _Root(NamedTuple):
-    """Where the ground root is ``(n, 3)``, and how it is turned ``(n, 4)``."""
+    """Position ``(n, 3)`` and rotation ``(n, 4)`` of the ground root."""
 
     position_m: FloatArray
     rotation_xyzw: FloatArray
@@ -175,9 +175,9 @@ def _hovering_m(feet_m: FloatArray, rest_m: FloatArray, leg_m: float) -> float:
 
 
 def _closed(rotation: FloatArray, translation: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return a cycle whose last frame is its first, but for the ground root.
+    """Return a cycle whose last frame equals its first, except for the ground root.
 
-    The gap is spread over its last part.
+    The gap is distributed over its last part.
     """
     n = len(rotation)
     u = np.clip((np.arange(n) / (n - 1) - (1.0 - CLOSING)) / CLOSING, 0.0, 1.0)
@@ -195,8 +195,8 @@ def _world(
 ) -> tuple[FloatArray, FloatArray]:
     """Return joints over time in the world, the figure turned to face +Z and on the ground.
 
-    Where the ground is, the rest pose says, or the movement itself: the rest pose of a file of
-    motion capture hangs from its origin. What has the feet nearer to it is taken.
+    The height of the ground follows from the rest pose or from the movement itself, whichever has
+    the feet nearer to it: in motion capture, the rest pose often hangs below the origin.
     """
     standing = standing_of(imported, plan)
     q, p = forward_kinematics(imported.skeleton, animation.rotation_xyzw, animation.translation_m)
@@ -237,7 +237,7 @@ def _of_same(
     imported: Imported,
     target: BodyPlan,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the character's joints in the world, and the pelvis's way, for one skeleton."""
+    """Return the character's joints in the world, and the pelvis's path, for one skeleton."""
     rest_q, rest_p = rest_pose(skeleton)
     moved = np.empty((len(world_q), len(skeleton), 4))
     for joint, parent in enumerate(skeleton.parents.tolist()):
@@ -261,7 +261,7 @@ def _of_other(
     skeleton: Skeleton,
     target: BodyPlan,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the character's joints in the world, and the pelvis's way, for another skeleton."""
+    """Return the character's joints in the world, and the pelvis's path, for another skeleton."""
     standing = standing_of(imported, source)
     q, p = rest_pose(imported.skeleton)
     source_rest = multiply(standing.turn_xyzw, q), rotate(standing.turn_xyzw, p) + standing.shift_m
@@ -288,9 +288,9 @@ def _local(
     pelvis_m: FloatArray,
     root: _Root,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return local poses whose bones keep their length but for the pelvis, which is placed.
+    """Return local poses whose bones keep their length, except for the pelvis, which is placed.
 
-    Joints between the ground root and the pelvis stay as at rest: what they did, the pelvis does.
+    Joints between the ground root and the pelvis stay at rest: the pelvis has their movement.
     """
     n = len(world_q)
     rotation = np.tile(skeleton.rest_rotation_xyzw, (n, 1, 1))

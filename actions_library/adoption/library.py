@@ -1,4 +1,4 @@
-"""A library of one's own from files: a character first, then a clip for each action."""
+"""A library made from imported files: a character first, then a clip for each action."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ def library_from(
     front: Sequence[float] | None = None,
     credit: Credit = Credit(),  # noqa: B008 - frozen
 ) -> tuple[Library, str | None]:
-    """Write a library of an imported character, which idles, and return it.
+    """Write a library of an imported character with an idle clip, and return it.
 
-    It idles with the file's animation of that name, or stands as at rest; which one is returned
-    too, None where it stands.
+    The idle clip is the file's animation of that name, or the rest pose. The animation's name is
+    returned too, None for the rest pose.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def _idling(imported: Imported) -> Animation | None:
 
 
 def _at_rest(character: Character) -> Clip:
-    """Return a clip of a character that stands as it is at rest."""
+    """Return a clip of a character in its rest pose."""
     skeleton, frames = character.skeleton, 2
     return Clip(
         name=IDLE,
@@ -113,7 +113,7 @@ def import_clip(
 ) -> tuple[Library, Adopted]:
     """Put an imported animation into a library as an action's clip, and return both.
 
-    An action that is there keeps its gesture; a new one has none yet.
+    An existing action keeps its gesture; a new one has none yet.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""The ground root of a movement that has none: where the body goes, and which way it faces.
+"""The root motion of a movement without a ground root: the body's path and heading.
 
-A file moves the pelvis, or moves nothing and lets the feet slide backward as on a treadmill. Out
-of both we make the path of a joint on the ground, which the rest of the body goes along with.
+A file moves the pelvis, or keeps it in place while the feet slide backward as on a treadmill. From
+either we make the path of a joint on the ground, the parent of the rest of the body.
 """
 
 from __future__ import annotations
@@ -14,29 +14,29 @@ from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import heading_rad, inverse, multiply, quaternion_about, rotate
 
 FAR = 0.5
-"""Way over the ground, in leg lengths, from which a movement is taken to travel."""
+"""Distance over the ground, in leg lengths, from which a movement is taken to travel."""
 
 CLOSED_STEPS = 1.6
-"""How many of its largest steps from frame to frame the last pose may be from the first, in what
-is taken to repeat."""
+"""Greatest difference of the last pose of a cycle to its first, in multiples of the largest change
+between frames."""
 
 UNDER_WAY = 0.3
-"""Share of its usual speed that a movement has at its ends, if it repeats: who begins and ends at
-rest does something once."""
+"""Least speed of a cycle at its ends, as a share of its usual speed: a movement that begins and
+ends at rest is played once."""
 
 TURNED_RAD = 0.5
 """A change of heading that is more than swaying."""
 
 LOW = 0.06
-"""Height, in leg lengths, up to which a foot may bear on the ground."""
+"""Height, in leg lengths, up to which a foot may bear weight."""
 
 SOFTENING_S = 0.12
-"""Standard deviation of the softening of a path that is not even."""
+"""Standard deviation of the smoothing of a path that is not even."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ground:
-    """The ground root's way, and what the movement is.
+    """The path of the ground root, and the kind of movement.
 
     Attributes
     ----------
@@ -120,13 +120,13 @@ def repeats(world_xyzw: FloatArray) -> bool:
 
 
 def wants_first_frame(world_xyzw: FloatArray) -> bool:
-    """Return whether a cycle's last frame comes one before its first one again, and is not it."""
+    """Return whether a cycle's last frame is the one before its first, and not equal to it."""
     steps = _turn_rad(world_xyzw[:-1], world_xyzw[1:]).mean(axis=-1)
     return bool(_turn_rad(world_xyzw[-1], world_xyzw[0]).mean() > 0.5 * np.median(steps))
 
 
 def _turn_rad(one_xyzw: FloatArray, other_xyzw: FloatArray) -> FloatArray:
-    """Return the angle from each turn to another."""
+    """Return the angle between rotations."""
     dots = np.abs(np.sum(one_xyzw * other_xyzw, axis=-1))
     return np.asarray(2.0 * np.arccos(np.clip(dots, 0.0, 1.0)))
 
@@ -147,9 +147,9 @@ def _slid_m(feet_m: FloatArray, rate_hz: float, leg_m: float) -> FloatArray:
 def _path(
     way: FloatArray, facing: FloatArray, rate_hz: float, *, travels: bool, cyclic: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the ground root's way ``(n, 2)`` and heading ``(n,)``.
+    """Return the ground root's path ``(n, 2)`` and heading ``(n,)``.
 
-    A cycle goes evenly and straight on; what turns on the spot turns its root.
+    A cycle moves evenly and straight; a movement that turns in place turns its root.
     """
     from scipy.ndimage import gaussian_filter1d
 

@@ -67,7 +67,7 @@ class Animation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Imported:
-    """What a file holds, in metres, +Y up; where it stands and faces is still the file's.
+    """What a file holds, in metres, +Y up; its position and front are still the file's.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ def unique_names(names: Sequence[str], without: str = "joint") -> tuple[str, ...
 
 
 def depth_of(parents: Sequence[int]) -> int:
-    """Return how many joints stand one below another; parents come before children."""
+    """Return the depth of the tree of joints; parents come before children."""
     depths: list[int] = []
     for parent in parents:
         depths.append(1 if parent < 0 else depths[parent] + 1)
@@ -164,7 +164,7 @@ def check_poses(place: str, frames: float, joints: int, before: int = 0) -> None
 def rigid(place: str, world: FloatArray, parents: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     """Return local rotations ``(…, j, 4)`` and translations ``(…, j, 3)`` of joints in the world.
 
-    A joint's scale is left out, but not what it does to the places of those below it.
+    A joint's scale is left out, but not its effect on the positions of its descendants.
 
     Parameters
     ----------

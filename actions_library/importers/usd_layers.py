@@ -1,4 +1,4 @@
-"""What a USD file leads to, looked at before USD itself composes it.
+"""The layers that a USD file refers to, checked before USD itself composes them.
 
 Composing opens every layer that is referred to, wherever it is, and waits for what never ends; and
 USD's reader of text calls itself once a brace, until the stack is gone and the program with it.

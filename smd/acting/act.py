@@ -1,4 +1,4 @@
-"""Acting: what a performer does becomes an actor, on the ground."""
+"""Acting: the moves of a performer, or its poses, become an actor with its feet on the ground."""
 
 from __future__ import annotations
 
@@ -63,24 +63,24 @@ def act(
     name
         Of the actor.
     character
-        Whose skeleton it is that the moves' pieces pose.
+        The one whose skeleton the moves pose.
     moves
         From the first of the frames to the last.
     idling
-        What is seen as far as a move is not.
+        The idle clip, seen where the blend weight of a move is below 1.
     legs
-        Those that the pieces tell of, in their order.
+        Those of the moves' foot contacts, in their order.
     frames
-        When it is to be posed.
+        Times of the poses.
     phrases, doodles
-        What it performs, and what that was drawn with: flights go as high as the doodles do.
+        What it performs, and its doodles: their heights decide those of its flights.
     terrain
-        What it goes on; by default the level ground.
+        The ground; by default level.
 
     Raises
     ------
     TransferError
-        If there is no ground below its way, or more than one over another.
+        If there is no ground below its path, or several surfaces one above another.
     """
     time_s = frames.time_s
     flown = list(flights(moves, height_of(doodles) if doodles else None))
@@ -113,20 +113,20 @@ def grounded_actor(
     doodles: Sequence[Doodle] = (),
     terrain: Terrain | None = None,
 ) -> Actor:
-    """Bring poses onto the ground: feet that should stand do, and none is in the ground.
+    """Put poses on the ground: feet that should stand do, and none is in the ground.
 
-    This is where whoever has poses, and knows when feet stand, begins.
+    Call it directly if you have poses and their foot contacts.
 
     Parameters
     ----------
     poses
-        Of the character, a frame each, with the ground root in its place on level ground.
+        Of the character, one per frame, with the ground root at its position on level ground.
     footwork
-        What the feet of ``legs`` do in each frame.
+        Contacts of the feet of ``legs`` in each frame.
     rate_hz, start_s
         Frames per second, and the time of frame 0.
     rise
-        How much higher than the poses the body and its feet go.
+        How much higher than in the poses the body and its feet are.
 
     The others are those of `act`.
 

@@ -19,7 +19,7 @@ from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.runs import runs_of_true
 
 WIDTH_PER_HEIGHT = 0.3
-"""How wide a body is, as a share of its height: shoulders are 0.26 [1]_, and there are arms.
+"""Width of a body over its height: shoulders are 0.26 [1]_, and there are arms.
 
 References
 ----------
@@ -27,19 +27,19 @@ References
 """
 
 SOFT = 0.25
-"""Share of the least distance on both sides of it over which ways begin to bend."""
+"""Share of the least distance, to both sides of it, over which paths begin to bend."""
 
 AHEAD_S = 1.6
-"""How long before and after they meet two performers begin and end to go aside."""
+"""Time before and after a meeting in which two performers move aside."""
 
 THROUGH = 0.5
-"""Share of the least distance: who comes nearer goes past on one side, who does not, goes round."""
+"""Share of the least distance: nearer, a performer passes on one side; else it goes around."""
 
 SWEEPS = 12
-"""How often all pairs are looked at; two performers need one time, a crowd may need them all."""
+"""Passes over all pairs; two performers need one, a crowd may need them all."""
 
 _STANDING_M_S = 0.05
-"""Speed that counts beside a performer's own: who stands gives way as little as it moves."""
+"""Added to a performer's speed: one that stands makes way only a little."""
 
 
 def least_distance_m(height_m: float, other_height_m: float) -> float:
@@ -48,7 +48,7 @@ def least_distance_m(height_m: float, other_height_m: float) -> float:
 
 
 def kept_apart(position_m: FloatArray, height_m: FloatArray, time_s: FloatArray) -> FloatArray:
-    """Return how far each performer goes aside ``(p, n, 2)``.
+    """Return how far each performer moves aside ``(p, n, 2)``.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def kept_apart(position_m: FloatArray, height_m: FloatArray, time_s: FloatArray)
 
 
 def parted(apart_m: FloatArray, least_m: float, time_s: FloatArray) -> FloatArray:
-    """Return a way from one performer to another ``(n, 2)`` that is never shorter than allowed.
+    """Return the vector between two performers ``(n, 2)``, never shorter than allowed.
 
     Farther than ``(1 + SOFT) least_m`` and ``AHEAD_S`` away from any meeting it is as given.
     """
@@ -84,7 +84,7 @@ def parted(apart_m: FloatArray, least_m: float, time_s: FloatArray) -> FloatArra
 
 
 def _past(apart_m: FloatArray, least_m: float, time_s: FloatArray) -> FloatArray:
-    """Let who would go through the other go past it, on the side where it is when nearest."""
+    """Move a performer that would go through the other to the side where it is when nearest."""
     done = apart_m.copy()
     far = np.linalg.norm(apart_m, axis=-1)
     ahead = max(round(AHEAD_S * (len(time_s) - 1) / max(time_s[-1] - time_s[0], 1e-9)), 1)
@@ -102,9 +102,9 @@ def _past(apart_m: FloatArray, least_m: float, time_s: FloatArray) -> FloatArray
 
 
 def _side(apart_m: FloatArray, nearest: int) -> FloatArray:
-    """Return the direction ``(2,)`` in which two are apart when they are nearest.
+    """Return the direction ``(2,)`` from one to the other when they are nearest.
 
-    Where they meet exactly, it is across their way; where they do not move either, to +X.
+    Where they meet exactly, it is perpendicular to their path; where they do not move either, +X.
     """
     here = apart_m[nearest]
     if np.linalg.norm(here) > 1e-6:
@@ -125,10 +125,10 @@ def _eased(needed_m: FloatArray, ahead: int) -> FloatArray:
 
 
 def _rounded(apart_m: FloatArray, least_m: float) -> FloatArray:
-    """Let who comes too near go round the other.
+    """Keep the distance of two performers above the least one.
 
     From ``(1 - SOFT) least_m`` to ``(1 + SOFT) least_m`` the distance becomes the parabola that
-    leads without a kink from ``least_m``, which it is below, to the distance itself beyond.
+    leads without a kink from ``least_m``, its value below, to the distance itself beyond.
     """
     far = np.linalg.norm(apart_m, axis=-1)
     soft_m = SOFT * least_m
@@ -140,10 +140,10 @@ def _rounded(apart_m: FloatArray, least_m: float) -> FloatArray:
 
 
 def _shares(position_m: FloatArray, push_m: FloatArray, time_s: FloatArray) -> FloatArray:
-    """Return how much of the way two performers each give way ``(2, n)``: as much as they move.
+    """Return the share ``(2, n)`` by which each of two performers makes way, by their speeds.
 
-    It stays the same from where they begin to give way until they have done, so that nobody who
-    stands is moved by another's coming to rest.
+    It is constant from the first moment of making way to the last, so that a performer that stands
+    is not moved when the other comes to rest.
     """
     share = np.full((2, len(time_s)), 0.5)
     for start, end in runs_of_true(np.any(push_m != 0.0, axis=-1)):
@@ -154,7 +154,7 @@ def _shares(position_m: FloatArray, push_m: FloatArray, time_s: FloatArray) -> F
 
 
 def roots(moves: Sequence[Move[Playable]], time_s: FloatArray) -> FloatArray:
-    """Return where a performer's ground root is ``(n, 2)`` at some times."""
+    """Return the position of a performer's ground root ``(n, 2)`` at some times."""
     of = np.searchsorted([move.end_s for move in moves[:-1]], time_s, side="right")
     place = np.empty((len(time_s), 2))
     for i, move in enumerate(moves):
@@ -175,7 +175,7 @@ def apart(
 
 
 def meeting_times(all_moves: Sequence[Sequence[Move[Playable]]]) -> FloatArray:
-    """Return the times at which performers are looked at, all of them at the same ones."""
+    """Return the times at which the positions of all performers are compared."""
     start_s = min(moves[0].start_s for moves in all_moves)
     end_s = max(moves[-1].end_s for moves in all_moves)
     return np.linspace(start_s, end_s, max(round((end_s - start_s) * KNOT_RATE_HZ), 1) + 1)
@@ -199,7 +199,7 @@ def encounters(
     after: Sequence[Sequence[Move[Playable]]],
     heights_m: Sequence[float],
 ) -> Iterator[str]:
-    """Yield a line for each two performers that came too near: when, and who gave way how far."""
+    """Yield a line for each pair that came too near: when, and how far each made way."""
     if len(devices) < 2:
         return
     time_s = meeting_times(before)

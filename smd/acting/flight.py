@@ -1,8 +1,8 @@
 """Flight: how high a jump, a leap or a fall carries the body, along a parabola.
 
-A clip jumps as high as it was made to. Here the height is the doodle's: between take-off and
-landing the body goes along a parabola whose duration is that of the flight as it is played, and
-whose apex lies between what the prop drew and what gravity asks for.
+A clip jumps as high as it was made to. Here the doodle decides the height: between take-off and
+landing the body follows a parabola. Its duration is that of the flight as it is played; its apex
+lies between the height that the prop drew and the one that gravity demands.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from smd.geometry.easing import fading
 GRAVITY_M_S2 = 9.81
 
 LEAST_APEX_M = 0.03
-"""Rise of the body over the line from take-off to landing below which a clip does not fly; nor
-does it where the body sinks as far below that line, as in a roll, which leaves its feet as well."""
+"""Least rise of a flying body over the line from take-off to landing. A clip whose body sinks as
+far below that line does not fly either: in a roll the feet leave the ground as well."""
 
 LOWEST, HIGHEST = 0.5, 2.0
-"""How much lower or higher than its clip a flight goes: a clip's legs push, tuck and land for a
-flight of its own height."""
+"""Limits of a flight's apex over its clip's: the legs of a clip push, tuck and land for a flight of
+its own height."""
 
 FLOATING = 3.0
-"""How much more slowly or faster than things fall a body may, as far as its clip's bounds allow."""
+"""Factor by which a flight may be slower or faster than free fall, within its clip's limits."""
 
 YIELDING_S = 0.3
-"""Time in which the body gathers the speed that a flight begins with beyond the clip's, and gives
-in to the speed that it ends with: a higher jump crouches deeper, before and after."""
+"""Time before take-off in which the difference to the clip's velocity is built up, and time after
+landing in which it is absorbed: a higher jump crouches deeper, before and after."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,7 +49,7 @@ class Height:
     height_m: FloatArray
 
     def rise_m(self, start_s: float, end_s: float) -> float:
-        """Return how far the prop rose at most over the line from its first to its last place."""
+        """Return the greatest height over the line from the first to the last position."""
         inside = (self.time_s > start_s) & (self.time_s < end_s)
         time_s, ends_s = self.time_s[inside], [start_s, end_s]
         line = np.interp(time_s, ends_s, np.interp(ends_s, self.time_s, self.height_m))
@@ -73,10 +73,10 @@ class Flight:
     take_off_s, landing_s : on the recording's clock; in between nothing touches the ground.
     from_m, to_m : heights of the body there.
     apex_m : how far it rises over the line between them; own_apex_m : how far in the clip.
-    gathering_m_s, yielding_m_s : how much faster than the clip it rises at take-off and landing.
-    gathering_s, yielding_s : over which that is gained and lost again.
+    gathering_m_s, yielding_m_s : difference to the clip's velocity at take-off and landing.
+    gathering_s, yielding_s : over which it is built up and absorbed.
     move : what it is part of.
-    body_m : (n,) height of the body in each frame of what is played.
+    body_m : (n,) height of the body in each frame of the clip.
     """
 
     move: Move[Playable]
@@ -93,7 +93,7 @@ class Flight:
     yielding_s: float
 
     def share(self, time_s: FloatArray) -> FloatArray:
-        """Return how much of the flight has passed: 0 before it, 1 after."""
+        """Return the share of the flight that has passed: 0 before it, 1 after."""
         return np.clip((time_s - self.take_off_s) / (self.landing_s - self.take_off_s), 0.0, 1.0)
 
     def height_at(self, time_s: FloatArray) -> FloatArray:
@@ -122,11 +122,11 @@ class Flight:
 
 
 def apex_for(prop_rise_m: float | None, duration_s: float, own_apex_m: float) -> float:
-    """Return how high a flight goes.
+    """Return the apex of a flight.
 
-    It is the geometric mean of what the prop rose and of what a body thrown up for that time
-    does, g t² / 8, or the latter alone where there is no prop; within `FLOATING` of the latter,
-    and above all within ``LOWEST`` and ``HIGHEST`` times the clip's own.
+    It is the geometric mean of the prop's rise and of the apex g t² / 8 of a body thrown up for
+    that time, or the latter alone where there is no prop. It is limited to a factor of `FLOATING`
+    around the latter, and then to ``LOWEST`` and ``HIGHEST`` times the clip's own apex.
     """
     thrown_m = GRAVITY_M_S2 * duration_s**2 / 8.0
     meant_m = thrown_m if prop_rise_m is None else np.sqrt(max(prop_rise_m, 0.0) * thrown_m)
@@ -135,7 +135,7 @@ def apex_for(prop_rise_m: float | None, duration_s: float, own_apex_m: float) ->
 
 
 def airborne(body_m: FloatArray, touches: BoolArray) -> Airborne | None:
-    """Return the one flight of what is played, if it has one.
+    """Return the one flight of a clip, if it has exactly one.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def _flies(body_m: FloatArray, first: int, last: int) -> bool:
 def flights(moves: Sequence[Move[Playable]], height: Height | None) -> Iterator[Flight]:
     """Yield the flights in the moves of a performer, as high as its prop was.
 
-    Where nothing says how high that was, they are as high as a body is thrown in their time.
+    Without a height, they are as high as a body that is thrown up for their time.
     """
     for move in moves:
         flown = move.airborne

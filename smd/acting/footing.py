@@ -1,9 +1,9 @@
-"""Footing: feet that stand where the clips say, without sliding.
+"""Footing: foot contacts without foot sliding.
 
-A clip's feet stand still as long as its ground root travels as it did in the clip. On a doodle's
-path it goes faster, slower, aside or around a bend, and between clips poses are mixed. So where a
-foot is meant to stand, whatever its sole would slide is taken out, frame by frame; and while it
-swings, what was taken out on either side is evened out, as in [1]_.
+A clip's planted feet do not slide as long as its ground root travels as it did in the clip. On a
+doodle's path it goes faster, slower, sideways or around a bend, and between clips poses are
+blended. So while a foot should stand, the sliding of its sole is subtracted, frame by frame; while
+it swings, the corrections before and after are interpolated, as in [1]_.
 
 References
 ----------
@@ -30,28 +30,28 @@ ROLLING_M = 0.005
 """Difference in height of heel and ball over which a foot rolls from one onto the other."""
 
 STILL_M_S = 0.05
-"""Speed of a sole below which it hardly matters how slow it is."""
+"""Speed of a sole below which its weight hardly depends on the speed."""
 
 
 CLEARANCE_M = 0.02
-"""How high a swinging foot is at least; mixed with standing, a step may be lower than that."""
+"""Least height of a swinging foot; blended with standing, a step may be lower than that."""
 
 CLEARING_S = 0.1
-"""Time in which it gets there and comes down again; never more than half the swing."""
+"""Time in which it reaches that height, and comes down; never more than half the swing."""
 
 SHORTEST_PLANT = 2
-"""Frames a foot stands at least; in one frame alone it cannot slide."""
+"""Least number of frames of a plant; in one frame alone a foot cannot slide."""
 
 LETTING_GO_S = 0.25
-"""Longest time over which a swinging foot loses the speed that its correction had."""
+"""Longest time over which the velocity of a correction decays in a swing."""
 
 FORGETTING_S = 0.8
-"""Time over which a foot in the air comes back to where the poses have it; a stride is shorter."""
+"""Time over which a foot in the air returns to its position in the poses; a stride is shorter."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Footing:
-    """Where a foot goes instead of where the poses have it.
+    """The correction of a foot's motion in the poses.
 
     Attributes
     ----------
@@ -74,16 +74,16 @@ def footing(
     lift_m: FloatArray,
     rate_hz: float,
 ) -> Footing:
-    """Take the sliding out of a foot, and keep it above the ground.
+    """Remove the sliding of a foot, and keep it above the ground.
 
     Parameters
     ----------
     foot_xyzw, ankle_m
-        ``(n, 4)`` and ``(n, 3)`` the foot in the world, as the poses have it.
+        ``(n, 4)`` and ``(n, 3)`` the foot in the world, in the poses.
     stands
         ``(n,)`` when it should stand; it does while it is low enough.
     pivot_rad
-        ``(n,)`` how far it has turned by the clips' own will: a foot that pivots may.
+        ``(n,)`` how far the clips themselves pivot it; this is kept.
     lift_m
         ``(n,)`` how much higher it goes.
     """
@@ -116,13 +116,13 @@ def footing(
 
 
 def plants_of(stands: BoolArray) -> IntArray:
-    """Return where a foot stands: first frame and one past the last of each plant, ``(p, 2)``."""
+    """Return when a foot stands: first frame and one past the last of each plant, ``(p, 2)``."""
     plants = runs_of_true(stands)
     return plants[plants[:, 1] - plants[:, 0] >= SHORTEST_PLANT]
 
 
 def _slide(heel_m: FloatArray, ball_m: FloatArray, on_ball: FloatArray) -> FloatArray:
-    """Return how far over the ground the part that bears the foot goes until the next frame."""
+    """Return how far the part that bears weight slides until the next frame."""
     share = 0.5 * (on_ball[1:] + on_ball[:-1])[:, None]
     step = share * np.diff(ball_m, axis=0) + (1.0 - share) * np.diff(heel_m, axis=0)
     return np.concatenate([step[:, [0, 2]], [[0.0, 0.0]]])
@@ -131,7 +131,7 @@ def _slide(heel_m: FloatArray, ball_m: FloatArray, on_ball: FloatArray) -> Float
 def _about_mean(value: FloatArray, weight: FloatArray, plants: IntArray) -> FloatArray:
     """Return ``value (n, k)`` less its weighted mean in each plant.
 
-    So a foot stands where the poses have it on average, above all where they have it stand still.
+    So a foot stands at its mean position in the poses, mostly of the frames in which it is still.
     """
     value = value.copy()
     for start, end in plants:
@@ -155,10 +155,10 @@ def _cleared(above_m: FloatArray, plants: IntArray, rate_hz: float) -> FloatArra
 
 
 def _evened(value: FloatArray, plants: IntArray, rate_hz: float) -> FloatArray:
-    """Return ``value (n, k)`` as it is in plants, and between them a smooth way across.
+    """Return ``value (n, k)`` unchanged in plants, and interpolated smoothly between them.
 
-    It leaves one plant and reaches the next with the speed that the value has there. Before the
-    first plant and after the last, it comes from rest and goes to rest.
+    The derivative is continuous at the ends of plants. Before the first plant and after the last,
+    it comes from rest and goes to rest.
     """
     n = len(value)
     if len(plants) == 0:

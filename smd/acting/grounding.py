@@ -1,4 +1,4 @@
-"""Grounding: a character's legs brought to where its feet stand."""
+"""Grounding: inverse kinematics brings a character's legs to its foot contacts."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ from smd.geometry.easing import gaussian_smoothed, smootherstep
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 
 SOFTNESS = 0.004
-"""Last part of a leg's reach in which it straightens ever more slowly."""
+"""Last share of a leg's reach, in which it straightens more and more slowly."""
 
 MOST_SINK_M = 0.12
-"""How far the body sinks at most so that a standing leg reaches its foot."""
+"""Most that the pelvis is lowered so that a standing leg reaches its foot."""
 
 MOST_BEND_RAD = np.radians(150.0)
-"""Of a knee; a foot that stands nearer to its hip than this allows is not held there."""
+"""Of a knee; a contact nearer to the hip than this allows is released."""
 
 MOST_TWIST_RAD = np.radians(70.0)
-"""Of a foot beside where the poses have it pointing: a body that turns farther takes it along."""
+"""Of a foot from its heading in the poses: a body that turns farther takes it along."""
 
 FREED_S, LOOSE_M = 0.12, 0.15
-"""Time from leaving the ground in which a foot is free, and as long before it lands; and how far it
-is then led at most from where its leg has it."""
+"""Time in which a foot becomes free after it leaves the ground, and before it lands; and the most
+that it is then moved from its position in the poses."""
 
 SINKING_S = 0.12
-"""How long before and after the body begins and ends to sink."""
+"""Time in which the pelvis is lowered and raised again."""
 
 
 def grounded(
@@ -49,16 +49,16 @@ def grounded(
     rise: Rise | None = None,
     slope: Slope | None = None,
 ) -> Poses:
-    """Return poses whose feet stand still where they should, and are never in the ground.
+    """Return poses without foot sliding and without feet in the ground.
 
     Parameters
     ----------
     poses
-        With the ground root in its place.
+        With the ground root at its position.
     footwork
-        When each of the legs' feet should stand, and how it turns of its own will.
+        When each of the legs' feet should stand, and how the clip itself pivots it.
     rise
-        How much higher than the poses body and feet go.
+        How much higher than in the poses body and feet are.
     slope
         What they stand on, where the ground is not level.
     """
@@ -104,7 +104,7 @@ class Rise(NamedTuple):
     Attributes
     ----------
     body_m, feet_m : (n,) in metres.
-    flies : (n,) when the body goes as things fall.
+    flies : (n,) when the body is in free fall.
     """
 
     body_m: FloatArray
@@ -113,7 +113,7 @@ class Rise(NamedTuple):
 
 
 def level(frames: int) -> Rise:
-    """Return the rise of a body that goes as its poses have it."""
+    """Return the rise of a body that moves as in its poses: zero."""
     return Rise(np.zeros(frames), np.zeros(frames), np.zeros(frames, dtype=bool))
 
 
@@ -146,7 +146,7 @@ def _put(
     slope: Slope | None,
     rate_hz: float,
 ) -> _Foot:
-    """Take the sliding out of a foot, and see whether its leg reaches it."""
+    """Remove the sliding of a foot, and find whether its leg reaches it."""
     step = footing(leg, *raw, stands, pivot_rad, lift_m, rate_hz)
     about = quaternion_about([0.0, 1.0, 0.0], step.turn_rad)
     foot_q, ankle_m = multiply(about, raw[0]), raw[1] + step.shift_m
@@ -171,15 +171,15 @@ def _put(
 
 
 def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:
-    """Return how far a foot is led from where its leg has it, less aside where it is free.
+    """Return how far a foot is moved from its position in the poses, limited where it is free.
 
-    Between two stands a foot is led from one place to the other; in a roll or a leap the body
-    goes elsewhere, and the leg would be torn straight, or drawn through the hip, on the way.
+    Between two contacts this offset is interpolated. In a roll or a leap the body moves elsewhere,
+    and the leg would be stretched straight, or pulled through the hip, on the way.
 
     Parameters
     ----------
     offset_m
-        ``(n, 3)`` as it is led.
+        ``(n, 3)`` as interpolated.
     stands
         When it should stand, on the ground or just above it.
     """
@@ -190,7 +190,7 @@ def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatA
 
 
 def _frames_to(true: BoolArray) -> FloatArray:
-    """Return how many frames each one is away from the nearest that is true."""
+    """Return each frame's distance in frames to the nearest that is true."""
     frames, at = np.arange(len(true)), np.flatnonzero(true)
     if len(at) == 0:
         return np.full(len(true), float(len(true)))
@@ -206,7 +206,7 @@ def _stepping(
     pivot_rad: FloatArray,
     rate_hz: float,
 ) -> tuple[BoolArray, FloatArray]:
-    """Return when feet stand once the steps that standing needs are taken, and their lift."""
+    """Return when feet stand, with the necessary steps, and how high these lift them."""
     if not legs:
         return stands, np.zeros(stands.shape)
     # A foot rolls over its ball without getting anywhere.
@@ -217,12 +217,12 @@ def _stepping(
 
 
 def _sunk(short_m: FloatArray, room_m: FloatArray, rate_hz: float) -> FloatArray:
-    """Return how far the body sinks ``(n,)`` for every standing foot to be within reach.
+    """Return how far the pelvis is lowered ``(n,)`` so that every standing foot is in reach.
 
     Parameters
     ----------
     short_m, room_m
-        ``(n,)`` how far it has to, and how far it may before a knee is bent too much.
+        ``(n,)`` how far it must be, and how far it may be before a knee is bent too much.
     """
     around = int(np.ceil(SINKING_S * rate_hz))
 
@@ -236,13 +236,13 @@ def _sunk(short_m: FloatArray, room_m: FloatArray, rate_hz: float) -> FloatArray
 
 
 def _straight(sunk_m: FloatArray, flies: BoolArray) -> FloatArray:
-    """Return how far a body sinks, changing evenly in flights: what falls does not sink as well."""
+    """Return how far the pelvis is lowered, linear in flights: free fall stays a parabola."""
     held = np.flatnonzero(~flies)
     return np.interp(np.arange(len(flies)), held, sunk_m[held]) if len(held) else sunk_m
 
 
 def _bring(skeleton: Skeleton, foot: _Foot, rotation: FloatArray, translation: FloatArray) -> None:
-    """Turn thigh, shin and foot, in place, so that the foot is where and as it should be.
+    """Rotate thigh, shin and foot, in place, so that the foot gets its position and rotation.
 
     The knee keeps pointing where it did.
     """

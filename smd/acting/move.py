@@ -1,4 +1,4 @@
-"""Move: something that is played for a while, where it goes, and how much of it is seen."""
+"""Move: a clip, or a blend of clips, with its path, its timing and its blend weight."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from smd.character.poses import Poses
 from smd.geometry.arrays import BoolArray, FloatArray
 
 KNOT_RATE_HZ = 120.0
-"""How densely a move is described; twice as dense as any clip or doodle of ours."""
+"""Rate at which a move is sampled; twice that of any clip or doodle of ours."""
 
 
 class Placement(NamedTuple):
@@ -22,13 +22,13 @@ class Placement(NamedTuple):
 
 
 class Footwork(NamedTuple):
-    """What feet do: when each should stand, and how it turns of its own will.
+    """Foot contacts: when each foot should stand, and how the clip itself pivots it.
 
     Attributes
     ----------
     stands : (n, legs).
-    pivot_rad : (n, legs) which way each points over the ground, from wherever it began; only
-        differences count.
+    pivot_rad : (n, legs) heading of each foot over the ground, from any start; only differences
+        count.
     """
 
     stands: BoolArray
@@ -42,7 +42,7 @@ class Playable(Protocol):
         """Return local poses at fractional frames ``(n,)``, the ground root at its origin."""
 
     def stands_at(self, frame: FloatArray) -> Footwork:
-        """Return what the character's legs do at fractional frames ``(n,)``; cycles add up."""
+        """Return the foot contacts at fractional frames ``(n,)``; pivots of cycles add up."""
 
 
 PlayedT = TypeVar("PlayedT", bound=Playable, covariant=True)
@@ -50,12 +50,12 @@ PlayedT = TypeVar("PlayedT", bound=Playable, covariant=True)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Airborne:
-    """The part of what is played in which nothing touches the ground.
+    """The part of a clip in which nothing touches the ground.
 
     Attributes
     ----------
     first, last : the frames before and after it.
-    body_m : (k,) height of the joint that holds the legs, in each frame of what is played.
+    body_m : (k,) height of the joint that holds the legs, in each frame of the clip.
     """
 
     first: int
@@ -75,7 +75,7 @@ class Move(Generic[PlayedT]):
     root_m : (k, 2) x and z of the ground root in the scene.
     heading_rad : (k,) of the ground root.
     frame : (k,) of what is played, fractional, not decreasing; beyond the last frame of a cycle.
-    presence : (k,) in [0, 1], how much of it is seen; the rest is idling.
+    presence : (k,) in [0, 1], its blend weight; the rest is the idle clip's.
     idles : whether nothing is performed.
     airborne : the part of its frames that flies, if one does.
     """
@@ -99,7 +99,7 @@ class Move(Generic[PlayedT]):
 
     @property
     def end(self) -> Placement:
-        """Where the move leaves the ground root."""
+        """Position and heading of the ground root at the end."""
         return Placement(self.root_m[-1], float(self.heading_rad[-1]))
 
     def root_at(self, time_s: FloatArray) -> FloatArray:
@@ -115,12 +115,12 @@ class Move(Generic[PlayedT]):
         return np.asarray(np.interp(time_s, self.time_s, self.frame))
 
     def presence_at(self, time_s: FloatArray) -> FloatArray:
-        """Return how much of it is seen at some times."""
+        """Return its blend weight at some times."""
         return np.asarray(np.interp(time_s, self.time_s, self.presence))
 
 
 def knots(start_s: float, end_s: float) -> FloatArray:
-    """Return the times at which a move is described, both ends among them."""
+    """Return the times at which a move is sampled, both ends among them."""
     count = max(round((end_s - start_s) * KNOT_RATE_HZ), 1) + 1
     return np.linspace(start_s, end_s, count)
 

@@ -16,11 +16,11 @@ from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import quaternion_about
 
 SEEN = 0.1
-"""Presence from which a clip says which feet stand: a foot that swings there must be free early,
-or what is left of its swing is too short for the way."""
+"""Blend weight from which a clip decides which feet stand: a foot that swings in it must be
+released early, or the rest of its swing is too short for the distance."""
 
 TURNING_S = 0.1
-"""Smoothing of a performer's heading, so that it turns into and out of a phrase gently."""
+"""Smoothing of a performer's heading, so that turns at a phrase's ends are gentle."""
 
 _STEP_S = 1e-3
 """Time over which the velocities on both sides of a boundary are taken."""
@@ -28,11 +28,11 @@ _STEP_S = 1e-3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Idling:
-    """What is seen as far as moves are not.
+    """The idle clip, seen where the blend weight of a move is below 1.
 
     Attributes
     ----------
-    piece : what is played, over and over.
+    piece : what is played, repeatedly.
     rate_hz : its frames a second.
     began_s : time of its frame 0.
     """
@@ -70,7 +70,7 @@ def posed(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -
 
 
 def stepped(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Footwork:
-    """Return what feet should do at each time; the pivots of all that was seen add up."""
+    """Return the foot contacts at each time; pivots add up, by their blend weights."""
     seen = []
     for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
         now_s = time_s[rows]
@@ -134,7 +134,7 @@ def _joined(
     now_s: FloatArray,
     idling: Idling,
 ) -> Poses:
-    """Let the difference to the move before die away over this one's first poses."""
+    """Let the difference to the previous move decay over the first poses of this one."""
     at_s = before.end_s
     ends = (
         own_poses(before, at_s + np.array([-_STEP_S, 0.0]), idling),

@@ -1,8 +1,8 @@
-"""Slope: bodies and feet brought from the level ground onto a terrain.
+"""Slope: bodies and feet are moved from the level ground onto a terrain.
 
-Everything is acted out on level ground first. Then the body goes up and down with the ground below
-it, smoothly, and each foot with the ground below its sole, exactly: what was on the ground is on
-it again, what was above it is as far above.
+Everything is animated on level ground first. Then the body follows the height of the ground below
+it, smoothed, and each foot the height below its sole, exactly. What was on the ground is on it
+again, and what was above it is as far above.
 """
 
 from __future__ import annotations
@@ -23,29 +23,28 @@ RIDING_S = 0.15
 """Smoothing of the body's height over the ground: a step up is taken in a third of a second."""
 
 MOST_TILT_RAD = np.radians(25.0)
-"""How far a sole is tilted at most: about what an ankle bends upward; beyond it stands on its edge.
-"""
+"""Most that a sole is tilted: about what an ankle bends upward; beyond, it stands on its edge."""
 
 CLEARING_S = 0.1
-"""How long before and after a swinging foot begins and ends to clear what rises below it."""
+"""Time before and after an obstacle in which a swinging foot is raised over it."""
 
 LONG_S = 1.0
-"""Swing from which on a foot goes up and down with the body: it flies, or lies on the ground."""
+"""Duration of a swing from which on a foot follows the body's height: it flies, or lies."""
 
 EARLY_S = 0.1
-"""How long before it leaves its place a foot may rise for that, and after it has come there still
-come down; never more than a third of its stand."""
+"""How long before the end of a contact a foot may begin to rise for that, and after its start still
+come down; never more than a third of the contact."""
 
 _UP = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Slope:
-    """The ground along one performer's way.
+    """The ground along one performer's path.
 
     Attributes
     ----------
-    terrain : what it goes on.
+    terrain : the ground.
     under_m : (n,) its height below the ground root, a frame each.
     body_m : (n,) how much higher than on level ground the body is.
     """
@@ -69,7 +68,7 @@ class Slope:
         foot_xyzw, ankle_m
             ``(n, 4)`` and ``(n, 3)``.
         stands
-            ``(n,)``; there its sole is tilted as the ground is, in between from one to the other.
+            ``(n,)``; there its sole is tilted like the ground; in between the tilt is interpolated.
         """
         heel, ball = rotate(foot_xyzw, leg.heel_m), rotate(foot_xyzw, leg.ball_m)
         low = ankle_m[:, 1] + np.minimum(heel[:, 1], ball[:, 1] - leg.ball_height_m)
@@ -112,7 +111,7 @@ class Slope:
         return point_m[:, 1] - np.where(np.isnan(height), self.under_m, height)
 
     def _normals(self, place_m: FloatArray, plants: IntArray) -> FloatArray:
-        """Return which way a sole's normal points ``(n, 3)``: the ground's mean in each plant."""
+        """Return a sole's normal ``(n, 3)``: the mean of the ground's in each plant."""
         found = self.terrain.normal_at(place_m)
         found = np.where(np.isnan(found), _UP, found)
         means = [_limited(found[start:end].mean(axis=0)) for start, end in plants]
@@ -142,10 +141,9 @@ class Slope:
     def _lead(
         self, wanted_m: FloatArray, way_m: FloatArray, plants: IntArray, rate_hz: float
     ) -> FloatArray:
-        """Return how far a foot is raised ``(n,)`` from one stand to the next, as it goes along.
+        """Return how far a foot is raised ``(n,)``, interpolated by distance between contacts.
 
-        In a swing that lasts long, and before the first stand and after the last, the body's
-        height leads it.
+        In a long swing, before the first contact and after the last, it follows the body's height.
         """
         lead = self.body_m.copy()
         if not len(plants):
@@ -173,22 +171,22 @@ def slope(
     rate_hz: float,
     name: str,
 ) -> Slope:
-    """Return the ground along a way.
+    """Return the ground along a path.
 
     Parameters
     ----------
     root_m
         ``(n, 2)`` x and z of the ground root.
     flies
-        ``(n,)`` when nothing touches the ground: the body then goes straight from where it left
-        the ground to where it lands.
+        ``(n,)`` when nothing touches the ground: the body's base then goes in a straight line from
+        take-off to landing.
     name
-        Of who goes there.
+        Of the performer.
 
     Raises
     ------
     TransferError
-        If there is no ground below the way, or several of them over one another.
+        If there is no ground below the path, or several surfaces one above another.
     """
     under = terrain.height_at(root_m)
     for fault, expected, found in (
@@ -208,7 +206,7 @@ def slope(
 
 
 def _limited(normal: FloatArray) -> FloatArray:
-    """Return a normal no farther from upright than a sole is tilted."""
+    """Return a normal no farther from upright than `MOST_TILT_RAD`."""
     aside = np.hypot(normal[0], normal[2])
     most = np.tan(MOST_TILT_RAD) * normal[1]
     share = min(1.0, most / aside) if aside > 0.0 else 1.0
@@ -217,7 +215,7 @@ def _limited(normal: FloatArray) -> FloatArray:
 
 
 def _across(value: FloatArray, plants: IntArray, count: int) -> FloatArray:
-    """Return values of plants ``(p, k)``, held in them and led across between them."""
+    """Return values of plants ``(p, k)``, held in them and interpolated between them."""
     frames = np.arange(count)
     after = np.searchsorted(plants[:, 0], frames, side="right")  # plants begun by then
     left, right = np.maximum(after - 1, 0), np.minimum(after, len(plants) - 1)

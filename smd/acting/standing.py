@@ -1,4 +1,4 @@
-"""Standing: when each foot of a clip bears on the ground."""
+"""Standing: when each foot of a clip bears weight on the ground."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TOUCHING_M = 0.005
 """Height up to which a point of the sole touches the ground."""
 
 RESTING_M_S = 0.1
-"""Speed up to which a touching point rests: a heel that has landed does, one that drags not."""
+"""Speed up to which a touching point rests: slower than a heel that drags."""
 
 
 def standing(
@@ -24,9 +24,9 @@ def standing(
 ) -> dict[int, BoolArray]:
     """Return when each foot stands ``(n,)``, by its joint.
 
-    It stands when the clip says that it or a joint below it touches, and also where its heel or
-    its ball rests on the ground next to that: clips label soles and toes, but a step begins on
-    the heel.
+    It stands when the clip labels it or a joint below it as a contact. It also stands next to such
+    frames, where its heel or its ball rests on the ground: clips label soles and toes, but a step
+    begins on the heel.
     """
     feet = feet_of(clip) if feet is None else feet
     labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet}

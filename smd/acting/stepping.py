@@ -1,8 +1,8 @@
 """Stepping: small steps where a character's feet stand and its body turns or shifts over them.
 
-A character that turns on the spot while nothing is performed, or whose next clip stands
-elsewhere, would twist its legs over feet that stay, or slide them. It steps instead, one foot
-after the other.
+A character may turn in place while nothing is performed, or its next clip may stand elsewhere. Its
+legs would twist over planted feet, or its feet would slide. It steps instead, one foot after the
+other.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ TURN_COUNTS_M = 0.3
 """Metres that a turn by one radian counts as: a little more than a foot's length."""
 
 RESTLESS_M_S = 0.12
-"""Speed of the feet under a body above which they cannot stay."""
+"""Speed at which the poses move the feet, above which they cannot stay planted."""
 
 FAR_M = 0.12
-"""How far the feet may get behind or ahead of the body before they step."""
+"""How far the body may move from its planted feet before they step."""
 
 FAR_TURN_RAD = np.radians(100.0)
-"""How far one step of each foot turns the body at most; beyond it they take another."""
+"""Most that one step of each foot turns the body; a larger turn takes more steps."""
 
 STEP_S = 0.25
-"""Time a step takes at least, where there is time."""
+"""Least duration of a step, where there is time."""
 
 LIFT_M = 0.045
 """How high a step lifts the foot."""
@@ -39,12 +39,12 @@ def stepping(
     left_m: FloatArray,
     rate_hz: float,
 ) -> tuple[BoolArray, FloatArray]:
-    """Let standing feet step where the poses move them all.
+    """Let standing feet step where the poses move all of them.
 
     Parameters
     ----------
     place_m, yaw_rad
-        ``(n, legs, 2)`` and ``(n, legs)`` where each foot is and points, as the poses have it.
+        ``(n, legs, 2)`` and ``(n, legs)`` position and heading of each foot in the poses.
     stands
         ``(n, legs)`` when it should stand.
     left_m
@@ -54,7 +54,7 @@ def stepping(
     Returns
     -------
     stands
-        As given, but for the steps.
+        As given, except during steps.
     lift_m
         ``(n, legs)`` how high each step lifts the foot.
     """

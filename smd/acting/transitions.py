@@ -1,8 +1,8 @@
-"""Transitions: from the end of one move into the next, without a jump.
+"""Transitions: blending from the end of one move into the next, without a jump.
 
-At the boundary the difference between the two poses and its velocity are taken, and let die away
-over the next move's first moments, on top of it ("inertialisation" [1]_). The move before stays
-as it is, and no move has to be played beyond its end.
+At the boundary the difference between the two poses, with its velocity, is added to the next move
+and decays over its first moments ("inertialisation" [1]_). The move before is unchanged, and no
+move has to be played beyond its end.
 
 References
 ----------
@@ -25,15 +25,15 @@ from smd.geometry.rotations import (
 )
 
 TRANSITION_S = 0.3
-"""Time a difference takes to die away, where joints are not far apart."""
+"""Time in which a difference decays, where joints are not far apart."""
 
 TURNING_RAD_S = np.radians(240.0)
-"""How fast a joint turns on average where they are: a raised arm needs longer to come down. It is
-1.9 times as fast at the most."""
+"""Mean speed of a joint in a longer transition: a raised arm needs longer to come down. The
+greatest speed is 1.9 times as much."""
 
 
 def transition_s(before: Poses, after: Poses) -> float:
-    """Return how long it takes to go over into a move.
+    """Return the duration of the transition into a move.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def transition_s(before: Poses, after: Poses) -> float:
 def carried_over(
     before: Poses, after: Poses, into: Poses, passed_s: FloatArray, *, over_s: float, step_s: float
 ) -> Poses:
-    """Let the difference between two moves die away over the second one's first poses.
+    """Let the difference between two moves decay over the first poses of the second.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def carried_over(
     into
         The second move's poses, to be corrected.
     passed_s
-        ``(n,)`` time of each since the boundary, from 0 to ``over_s``.
+        ``(n,)`` time of each pose since the boundary, from 0 to ``over_s``.
     """
     b_q, a_q = before.rotation_xyzw, after.rotation_xyzw
     turn = rotvec_from_quaternion(multiply(inverse(a_q[0]), b_q[1]))

@@ -1,4 +1,4 @@
-"""Body: what of a skeleton expresses Effort."""
+"""Body: the joints of a skeleton that express Effort."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ class Arm:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """What of a skeleton expresses.
+    """The joints of a skeleton that express Effort.
 
     Attributes
     ----------
-    spine : joints that bend with Weight, without neck and head: the eyes stay on what they look at.
-    neck : the joint that takes the bend back; None without a head.
+    spine : joints that bend with Weight, without neck and head, so that the gaze stays.
+    neck : the joint that compensates the bend; None without a head.
     head : the joint that looks; None without one.
     chest : what the arms hang from.
     upper : joints that are rescaled in a gait: spine, arms, and what hangs from them.
@@ -65,7 +65,7 @@ class Body:
 
 
 def body_of(clip: Clip) -> Body:
-    """Return what of a clip's skeleton expresses."""
+    """Return the joints of a clip's skeleton that express Effort."""
     skeleton = clip.skeleton
     turned, place = forward_kinematics(
         skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
@@ -103,7 +103,7 @@ def _arm(skeleton: Skeleton, plan: LimbPlan) -> Arm | None:
 
 
 def _below(plan: BodyPlan, parents: IntArray, joint: int) -> bool:
-    """Return whether a joint hangs from a leg."""
+    """Return whether a joint is a descendant of a leg's."""
     legs = {j for limb in plan.limbs if limb.kind == "leg" for j in limb.chain}
     while joint >= 0:
         if joint in legs:

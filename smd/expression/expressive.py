@@ -1,11 +1,10 @@
 """Expression: a neutral clip played with Effort (section 6.4 of the paper [1]_).
 
-Time changes how long the stages last and how their speed goes; Weight makes speeds more or less
-even, movements larger or smaller, the back sink or rise; Space draws the hands' ways straighter or
-in arcs and lets the gaze rest or wander; Flow holds each pose, or lets the limbs swing through.
-What a clip owes to the ground it keeps: legs are not rescaled where they carry, and what a gait
-takes its steps from, the doodle's path, is not its own. Space and Flow are ours: the paper plays
-Time and Weight.
+Time changes the durations of the stages and their speed curves. Weight makes speeds more or less
+even, movements larger or smaller, and lowers or raises the back. Space makes the hands' paths
+straighter or more curved, and lets the gaze rest or wander. Flow holds each pose, or lets the limbs
+swing through. Ground contacts are kept: legs are not rescaled while they carry the body, and a gait
+takes its pace from the doodle's path. Space and Flow are ours: the paper has Time and Weight.
 
 References
 ----------
@@ -45,38 +44,38 @@ from smd.geometry.easing import smootherstep
 from smd.geometry.rotations import inverse, multiply, quaternion_about, rotate
 
 BEND_RAD = 0.1
-"""The paper's, by which each bone of the spine bends forward when strong."""
+"""Forward bend of each bone of the spine when strong, as in the paper."""
 
 KEPT_GAZE = 0.7
-"""Share of the spine's bend that the neck takes back: the eyes stay on what they look at."""
+"""Share of the spine's bend that the neck compensates, so that the gaze stays."""
 
 STRONGEST_SCALE = 1.3
-"""How much larger a strong movement is. The paper's 2 turns joints beyond what a body can."""
+"""Scale of a strong movement. The paper's 2 rotates joints beyond a body's limits."""
 
 WANDERING_RAD, WANDERING_S = np.radians(16.0), 2.2
-"""How far an indirect gaze goes to either side, and in what time it comes back."""
+"""Amplitude of an indirect gaze to either side, and its period."""
 
 EDGE = 0.15
-"""First and last share of a clip over which its scale and shape come and go: it begins and ends in
-the pose that idling has."""
+"""First and last share of a clip over which its scale and shape are blended in and out: it begins
+and ends in the pose of the idle clip."""
 
 
 def expressive(study: Study, effort: Effort, *, travels: bool) -> Clip:
-    """Return a clip as it is played with Effort; at Effort 0, or where none was read, the same.
+    """Return a clip changed to show an Effort; at Effort 0, or where none was read, the same.
 
-    Timing comes first: Time, then Weight, which goes by the speeds that then are to be seen, then
-    Flow. Of the poses, Space draws the hands' ways, Weight scales them, Flow's springs follow
-    what they are hung from, and the shape of the back is added last, so that nothing scales it.
-    Hands that rest on the ground are put back there.
+    Timing comes first: Time, then Weight, which depends on the speeds after that, then Flow. Of
+    the poses, Space changes the hands' paths, Weight scales them, Flow's springs follow their
+    parent joints, and the shape of the back is added last, so that nothing scales it. Hands that
+    rest on the ground are put back there.
 
     Parameters
     ----------
     study
         `study_of` the neutral clip.
     effort
-        What is to be seen; an axis that is None is not played.
+        What to show; an axis that is None is not played.
     travels
-        Whether its action does: a gait goes by the doodle's pace, and has no timing of its own.
+        Whether its action does: a gait has the doodle's pace, and no timing of its own.
     """
     time, weight = effort.time or 0.0, effort.weight or 0.0
     space, flow = effort.space or 0.0, effort.flow or 0.0
@@ -120,9 +119,9 @@ def effort_timing(study: Study, time: float, weight: float, flow: float) -> Floa
 def with_small_beginning(study: Study, time: float) -> Clip:
     """Return a sudden clip whose preparation and anticipation are smaller, by 6.4.1.
 
-    The paper shrinks those of a sustained clip too; ours keep their size, since one change for
-    both poles makes them look alike. The clip comes back to its own size by the end of the
-    execution, so that no stage ends in a jump.
+    The paper shrinks those of a sustained clip too; ours keep their size, since an equal change at
+    both poles shows nothing. The clip returns to its own size by the end of the execution, so that
+    the pose does not jump at the end of a stage.
     """
     clip = study.clip
     last = len(clip) - 1
@@ -138,9 +137,9 @@ def with_small_beginning(study: Study, time: float) -> Clip:
 def with_weight(clip: Clip, weight: float, study: Study, *, gait: bool) -> Clip:
     """Return a clip made larger where strong, smaller where light (6.4.2).
 
-    What is scaled is how far it goes from the way that leads from its first pose to its last one,
-    so that who sits down in the end sits, strong or light; and only as long as legs carry it, since
-    nobody falls through the ground, or short of it.
+    Scaled is the difference to the interpolation from its first pose to its last, so that a
+    character that sits down ends up sitting, strong or light. It is scaled only while the legs
+    carry the body, so that it neither sinks through the ground nor floats above it.
 
     Parameters
     ----------
@@ -159,14 +158,14 @@ def with_weight(clip: Clip, weight: float, study: Study, *, gait: bool) -> Clip:
 
 
 def poses_at(clip: Clip, frames: Sequence[int]) -> Poses:
-    """Return a clip's poses at some frames, the ground root where the clip has it."""
+    """Return a clip's poses at some frames, with its root motion."""
     return Poses(clip.rotation_xyzw[list(frames)], clip.translation_m[list(frames)])
 
 
 def way_across(clip: Clip, way_m: FloatArray) -> Poses:
-    """Return poses from a clip's first one to its last, as far on the way as its joints have gone.
+    """Return the interpolation from a clip's first pose to its last, by the way of its joints.
 
-    Where both are the same this is that pose.
+    Where both are equal this is that pose.
     """
     share = way_m / way_m[-1] if way_m[-1] > 0.0 else np.zeros(len(way_m))
     ends = poses_at(clip, [0]), poses_at(clip, [len(clip) - 1])
@@ -175,10 +174,10 @@ def way_across(clip: Clip, way_m: FloatArray) -> Poses:
 
 
 def softly_rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses) -> Clip:
-    """Return a clip rescaled in full where it is near to a pose, less the farther it turns away.
+    """Return a clip rescaled in full near a pose, and less the larger the angle to it.
 
-    The share is the cosine of half the angle: 0.7 at a right angle, nothing at half a turn, where
-    the shorter way back changes sides, and beyond which no arm is raised.
+    The share is the cosine of half the angle: 0.7 at a right angle, 0 at half a turn, where the
+    shorter rotation back changes sides, and beyond which no arm is raised.
     """
     at = list(joints)
     same = np.sum(clip.rotation_xyzw[:, at] * about.rotation_xyzw[:, at], axis=-1)
@@ -204,7 +203,7 @@ def middle_frame(clip: Clip) -> int:
 
 
 def with_space(clip: Clip, space: float, body: Body, bearing: FloatArray) -> Clip:
-    """Return a clip whose hands and head go straight, or in arcs with a wandering gaze."""
+    """Return a clip whose hands move straight, or in arcs with a wandering gaze."""
     clip = with_hands_redrawn(clip, body, space, bearing)
     n = len(clip)
     share = np.ones(n) if clip.cyclic else settled(n, EDGE)

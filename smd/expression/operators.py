@@ -1,7 +1,7 @@
 """The operators of expression: retime, rescale and reshape a clip (section 6.3 of the paper [1]_).
 
 Each takes a clip and returns one of the same length, stages and contacts carried along; they can be
-composed in any order. The ground root's way stays the clip's: what rescales is the pose.
+composed in any order. The root motion stays the clip's: only the pose is rescaled.
 
 References
 ----------
@@ -28,7 +28,7 @@ from smd.geometry.rotations import (
 )
 
 SOFT = 0.1
-"""Of a power law's time: without it, a power of time has no speed, or all of it, at its start."""
+"""Offset of a power law's time: without it, the speed at the start is zero or infinite."""
 
 
 def retimed(clip: Clip, source_frame: FloatArray) -> Clip:
@@ -72,14 +72,14 @@ def retimed_ends(stage_end_frames: IntArray, source_frame: FloatArray) -> IntArr
 def stage_timing(clip: Clip, lasting: Sequence[float], power: Sequence[float]) -> FloatArray:
     """Return the source frame ``(n,)`` to show at each frame, by equation (6).
 
-    Each stage lasts so many times as long, and within it time runs as a power of itself; then all
-    stages are shortened or stretched alike, so that the whole keeps its length. Our reading: times
-    within a stage are counted from 0 to 1, so that every power is continuous and increasing.
+    The duration of each stage is multiplied, and time within it is raised to a power. Then all
+    stages are scaled alike, so that the whole keeps its duration. Our reading: time within a stage
+    is normalised to 0 … 1, so that every power is continuous and increasing.
 
     Parameters
     ----------
     lasting, power
-        One of each a stage, positive.
+        One of each per stage, positive.
     """
     last = len(clip) - 1
     source, played = [0.0], [0.0]
@@ -101,7 +101,7 @@ def softened_power(u: FloatArray, exponent: float) -> FloatArray:
 
 
 def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses) -> Clip:
-    """Return a clip whose joints go so many times as far from a pose, by equation (7).
+    """Return a clip whose joints rotate by a factor farther from a pose, by equation (7).
 
     Parameters
     ----------
@@ -109,8 +109,8 @@ def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses
         Which; the ground root is none of them.
     factor
         ``(n,)``, or ``(n, k)`` of each joint, not negative; where it is 1 nothing changes. Let it
-        change smoothly, since a jump of it is one of the pose; and let it be 1 where a joint is
-        half a turn away from the pose, since there its way back changes sides.
+        change smoothly, or the pose jumps. Let it be 1 where a joint is half a turn away from the
+        pose, since there the shorter rotation back changes sides.
     about
         The pose it is scaled about, a single one or one a frame: the first one of a stage.
     """
@@ -125,17 +125,17 @@ def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses
 
 
 def reshaped(clip: Clip, bend_rad: Mapping[int, FloatArray], rest_xyzw: FloatArray) -> Clip:
-    """Return a clip whose joints are turned further about their own left axis.
+    """Return a clip whose joints are rotated further about their left axis.
 
-    The axis is the joint's at rest in the world, so that a positive angle bends forward whatever
-    way a rig's bones are turned.
+    It is the world's left axis in the rest pose, so that a positive angle bends forward for any
+    rest rotations of a rig.
 
     Parameters
     ----------
     bend_rad
         ``(n,)`` by joint.
     rest_xyzw
-        ``(j, 4)`` how each joint is turned in the world at rest.
+        ``(j, 4)`` rotation of each joint in the world in the rest pose.
     """
     if not bend_rad:
         return clip

@@ -1,4 +1,4 @@
-"""Reaching: hands moved by some way, the arms following."""
+"""Reaching: hands are moved, and inverse kinematics moves the arms."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from smd.geometry.rotations import (
 )
 
 SOFTNESS = 0.03
-"""Last share of an arm's reach in which it straightens ever more slowly."""
+"""Last share of an arm's reach, in which it straightens more and more slowly."""
 
 STRAIGHT = 0.02
 """Sine of the bend about which an arm's hinge, and no longer the bend itself, says its axis."""

@@ -1,4 +1,4 @@
-"""Springs: joints that swing after what leads them, or are held (Laban's Flow)."""
+"""Springs: joints that follow their motion with a lag, or are held (Laban's Flow)."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from smd.geometry.easing import gaussian_smoothed, smootherstep
 from smd.geometry.rotations import normalized, sign_continuous
 
 SPRING_HZ, SOFTER = 4.0, 0.85
-"""Frequency at which a joint next to the trunk swings, and how much less each one further out."""
+"""Frequency of a joint next to the trunk, and the factor on it for each joint further out."""
 
 DAMPING = 0.4
-"""Of these springs: they swing over by 1/4, back by 1/16. A hinge is critically damped (1): an
-elbow that swings through is broken."""
+"""Damping ratio: these springs overshoot by 1/4, then by 1/16. A hinge is critically damped (1), so
+that no elbow overextends."""
 
 DIED_AWAY = 12.0
-"""Time constants after which a spring is still: 6 millionths are left."""
+"""Time constants after which a spring is at rest: 6 millionths are left."""
 
 DAMPED_S = 0.07
-"""Smoothing of what is bound."""
+"""Smoothing of bound movement."""
 
 
 def sprung(clip: Clip, joints: Sequence[int], body: Body, share: FloatArray) -> Clip:
-    """Return a clip in which joints lag, swing over and overlap, each hung from a spring.
+    """Return a clip in which joints lag, overshoot and overlap, each following by a spring.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def sprung(clip: Clip, joints: Sequence[int], body: Body, share: FloatArray) -> 
 
 
 def damped(clip: Clip, joints: Sequence[int], share: FloatArray) -> Clip:
-    """Return a clip whose joints leave out what is quick and small; parameters as in `sprung`."""
+    """Return a clip whose joints lose quick, small movements; parameters as in `sprung`."""
     rotation = clip.rotation_xyzw.copy()
     own = rotation[:, list(joints)]
     if clip.cyclic:
@@ -68,7 +68,7 @@ def _swung(wanted: FloatArray, omega: FloatArray, damping: FloatArray) -> FloatA
     """Return how springs follow values ``(n, j, 4)`` from rest; ``omega`` is in radians a frame.
 
     x'' = omega^2 (wanted - x) - 2 damping omega x', by the trapezoidal rule: stable for any omega.
-    It is solved in frequencies, and what swings on beyond the end is let die away.
+    It is solved in the frequency domain, with room after the end for the swing to decay.
     """
     half = 0.5 * omega
     size = len(wanted) + int(np.ceil(DIED_AWAY / (omega * damping).min()))
@@ -85,7 +85,7 @@ def _mixed(own: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
 
 
 def _depth(clip: Clip, joint: int, body: Body) -> int:
-    """Return how many joints there are between one and the trunk."""
+    """Return the number of joints between one and the trunk."""
     depth = 0
     parent = int(clip.skeleton.parents[joint])
     while parent >= 0 and parent not in body.spine:
@@ -94,6 +94,6 @@ def _depth(clip: Clip, joint: int, body: Body) -> int:
 
 
 def settled(n: int, edge: float) -> FloatArray:
-    """Return 1, but for a rise over the first ``edge`` of ``n`` frames and a fall over the last."""
+    """Return 1, but rising over the first ``edge`` of ``n`` frames and falling over the last."""
     u = np.arange(n) / (n - 1)
     return smootherstep(np.minimum(u, 1.0 - u) / edge)

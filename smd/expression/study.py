@@ -1,4 +1,4 @@
-"""Study: what the expression of a neutral clip goes by, found once."""
+"""Study: what every Effort needs of a neutral clip, computed once."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ ground, and above which its legs carry it."""
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Study:
-    """A neutral clip, and what of it is asked for every Effort.
+    """A neutral clip, and what every Effort needs of it.
 
     Attributes
     ----------
     clip : neutral.
-    body : what of its skeleton expresses.
+    body : the joints of its skeleton that express Effort.
     way_m : (n,) how far the joints have gone by each frame, on average, as seen from the ground
         root.
     turning_rad_s : (n - 1,) how fast the joint turns that turns fastest.
@@ -62,7 +62,7 @@ def study_of(clip: Clip, body: Body) -> Study:
 
 
 def retimed_study(study: Study, source_frame: FloatArray) -> Study:
-    """Return a study as it is seen when the clip is retimed; its clip and pace stay its own."""
+    """Return the study of the retimed clip; its ``clip`` and pace stay those of the neutral one."""
     frame = np.arange(len(study.clip), dtype=np.float64)
     return replace(
         study,

@@ -1,7 +1,7 @@
 """Timing: which frame of a clip is shown when, by Effort (sections 6.3 and 6.4 of the paper [1]_).
 
 Each function returns the source frame ``(n,)`` to show at each of a clip's n frames: not
-decreasing, from the first to the last, so that every phrase keeps its length.
+decreasing, from the first to the last, so that every phrase keeps its duration.
 
 References
 ----------
@@ -22,10 +22,10 @@ from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.easing import smootherstep
 
 ALPHA = 1.5
-"""The paper's, in the power of speed that Weight plays by."""
+"""The paper's factor in the power of speed for Weight."""
 
 SOFTENED = 1.0 / 3.0
-"""Share of that power that is played: all of it leaves a single frame of a blow."""
+"""Share of that power that is used: all of it leaves a single frame of a blow."""
 
 EVENED = 0.5
 """Power of the speed that a sustained clip's pace is divided by."""
@@ -35,17 +35,17 @@ BUSY_PER_SUDDEN = 0.6
 `smd.synthetic.efforts`), and is still before and after."""
 
 WAITING = 0.5
-"""Share of that stillness that comes before."""
+"""Share of this waiting that comes before."""
 
 HELD = 0.7
 """How far a bound clip comes to rest between stages."""
 
 SLOWEST, FASTEST = 0.25, 4.0
-"""Of a retimed clip beside its own pace: no moment stands still, none is skipped."""
+"""Limits of a retimed clip's pace over its own: no moment stands still, none is skipped."""
 
 FASTEST_TURN_RAD_S = np.radians(1200.0)
-"""Of a joint in a retimed clip, where its own time has none that is faster; a phrase that is
-shorter than its clip is faster again. People's elbows reach 2400 degrees a second in a pitch [2]_,
+"""Limit of a joint's speed in a retimed clip, unless its own is faster; in a phrase shorter than
+its clip, all is faster again. People's elbows reach 2400 degrees a second in a pitch [2]_,
 their knees 1700 in a kick [3]_."""
 
 SHORTEST_STAGE_S = 0.05
@@ -70,10 +70,10 @@ def time_timing(clip: Clip, time: float) -> FloatArray:
 
 
 def pace_timing(way_m: FloatArray, power: float) -> FloatArray:
-    """Return the timing in which the body's speed is its own, to 1 plus a power.
+    """Return the timing in which the body's speed is its own to the power of 1 plus ``power``.
 
-    Above 0, what is fast is played faster still and what is slow slower (the paper's strong
-    Weight, 6.4.2); below 0 the pace is evened.
+    Above 0, fast moments become faster and slow ones slower (the paper's strong Weight, 6.4.2);
+    below 0 the pace becomes more even.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def pace_timing(way_m: FloatArray, power: float) -> FloatArray:
 
 
 def held_timing(stage_end_frames: IntArray, rate_hz: float, bound: float) -> FloatArray:
-    """Return the timing in which each stage sets out slowly and comes to rest, by a share."""
+    """Return the timing in which each stage eases in and out, by a share."""
     share = HELD * bound
     source = np.arange(stage_end_frames[-1] + 1, dtype=np.float64)
     start = 0
@@ -108,12 +108,12 @@ def held_timing(stage_end_frames: IntArray, rate_hz: float, bound: float) -> Flo
 
 
 def within_pace(source_frame: FloatArray, fastest: FloatArray) -> FloatArray:
-    """Return a timing whose pace is nowhere below or above what can be looked at.
+    """Return a timing whose pace stays within its limits.
 
     Parameters
     ----------
     fastest
-        ``(n - 1,)`` the most frames of the source that one step may pass where it passes each.
+        ``(n - 1,)`` the most source frames that one step may pass, at each of them.
     """
     last = len(source_frame) - 1
     pace, way, steps = np.diff(source_frame), source_frame, np.arange(last) + 0.5
@@ -126,7 +126,7 @@ def within_pace(source_frame: FloatArray, fastest: FloatArray) -> FloatArray:
 
 
 def fastest_paces(turning_rad_s: FloatArray, busy: float) -> FloatArray:
-    """Return how many frames of a clip a step may pass ``(n - 1,)``, before it is made to wait.
+    """Return how many frames of a clip one step may pass ``(n - 1,)``, before waiting is added.
 
     Parameters
     ----------
@@ -140,12 +140,12 @@ def fastest_paces(turning_rad_s: FloatArray, busy: float) -> FloatArray:
 
 
 def busy_share(time: float) -> float:
-    """Return the share of its phrase in which a clip acts."""
+    """Return the share of its phrase in which a clip moves."""
     return float(np.exp(-BUSY_PER_SUDDEN * max(time, 0.0)))
 
 
 def after_waiting(source_frame: FloatArray, busy: float) -> FloatArray:
-    """Return a timing that is still, does everything in a share of the time, and is still again."""
+    """Return a timing that waits, plays everything in a share of the time, and waits again."""
     last = len(source_frame) - 1
     waited = WAITING * (1.0 - busy) * last
     frame = np.arange(last + 1, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""Tracing: the paths of hands drawn straighter, or in arcs (Laban's Space)."""
+"""Tracing: the paths of hands become straighter, or more curved (Laban's Space)."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import inverse, normalized, rotate
 
 STRAIGHTER = 0.8
-"""Share of a sweep's bend that a direct hand leaves out."""
+"""Share of a sweep's curvature that a direct hand loses."""
 
 BENT_MORE, BOW, WEAVE = 0.4, 0.2, 0.06
-"""What an indirect hand adds: of its own bend; and a bow and a weave, of the sweep's length."""
+"""What an indirect hand adds: to its own curvature; a bow and a weave, as shares of the length."""
 
 SHORTEST_M = 0.04
-"""A sweep with less way than this is left as it is: a hand that rests has no path."""
+"""A sweep shorter than this is unchanged: a hand that rests has no path."""
 
 TURNING = 0.35
-"""A hand turns where it is slower than this share of the sweeps on both sides."""
+"""A sweep ends where the hand is slower than this share of the top speeds on both sides."""
 
 STEADY_S = 0.03
-"""Smoothing of the speed by which sweeps are told apart."""
+"""Smoothing of the speed that separates sweeps."""
 
 
 def sweeps(position_m: FloatArray, rate_hz: float) -> list[tuple[int, int]]:
     """Return the first and last frame of each sweep of a path ``(n, 3)``, one after the other.
 
-    A sweep ends where the speed has a minimum that is clearly lower than the tops beside it.
+    A sweep ends where the speed has a minimum that is clearly lower than the maxima beside it.
     """
     speed = np.linalg.norm(np.gradient(position_m, axis=0), axis=-1)
     speed = gaussian_smoothed(speed, STEADY_S * rate_hz)
@@ -48,7 +48,7 @@ def sweeps(position_m: FloatArray, rate_hz: float) -> list[tuple[int, int]]:
 
 
 def redrawn(position_m: FloatArray, space: float, rate_hz: float) -> FloatArray:
-    """Return by how much a path ``(n, 3)`` is drawn elsewhere ``(n, 3)``, nothing where it turns.
+    """Return the displacement ``(n, 3)`` of a path ``(n, 3)``, zero where it turns.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def _across(chord: FloatArray, bend: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def with_hands_redrawn(clip: Clip, body: Body, space: float, bearing: FloatArray) -> Clip:
-    """Return a clip whose hands go straighter ways, or wander, as seen from the chest.
+    """Return a clip whose hands' paths are straighter, or wander, in the chest's coordinate frame.
 
     Parameters
     ----------

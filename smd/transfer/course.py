@@ -1,4 +1,4 @@
-"""Course: the moves of one performer, one after the other, each from where the last one ended.
+"""Course: the moves of one performer in order, each starting where the last one ended.
 
 This is where the running offset of section 6.2 of the paper lives. Read as a vector, it is the
 difference between where the prop is and where the character stands: it grows by whatever the prop
@@ -70,7 +70,7 @@ def course(
 
 
 def _facing(span: Span, following: Span | None, path: GroundPath, heading_rad: float) -> Facing:
-    """Return how a performer turns in a pause to where its next phrase faces."""
+    """Return how a performer turns in a pause to the heading of its next phrase."""
     turn_rad = 0.0
     if following is not None:
         turn_rad = nearest_turn(float(path.heading_at(span.end_s)), heading_rad) - heading_rad
@@ -86,10 +86,10 @@ def _pause_s(following: Sequence[Span], rest: str, pieces: Repertoire) -> float:
 
 
 def _rising_s(span: Span, rest: str, following: Phrase | None, pieces: Repertoire) -> float:
-    """Return when, while idling, a character leaves its rest for what follows; else the end.
+    """Return when, while idling, a character gets up for what follows; else the end.
 
-    Who sits, and is to walk next, stands up first, however little was drawn for that. It takes
-    the clip's own time where there is so much, and at most two thirds of what there is.
+    A seated character that is to walk next stands up first, even if that was not drawn. This takes
+    the clip's own duration, but at most two thirds of the pause.
     """
     if following is None or rest not in pieces.leaving:
         return span.end_s
@@ -100,7 +100,7 @@ def _rising_s(span: Span, rest: str, following: Phrase | None, pieces: Repertoir
 
 
 def _goes_on(before: Piece | None, after: Piece | None) -> bool:
-    """Return whether one piece goes on along the path after another without coming to rest."""
+    """Return whether one piece follows the path after another without coming to rest."""
     if before is None or after is None or before.gait is None or after.gait is None:
         return False
     return before is after or bool(before.gait.passings and after.gait.passings)
@@ -116,7 +116,7 @@ def _acted(
     *,
     into_gait: bool,
 ) -> list[Move[Piece]]:
-    """Return the moves that act out a phrase: one, but for a turn that takes several passes.
+    """Return the moves of a phrase: one, except for a turn that takes several passes.
 
     Parameters
     ----------

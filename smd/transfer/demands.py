@@ -1,6 +1,6 @@
-"""Demands: where a doodle asks more of a character than a body can do, or a clip was made for.
+"""Demands: warnings where a doodle demands more than a body can do, or a clip was made for.
 
-It is played all the same: what the Score says is done, in its time.
+The phrase is played all the same, at the times of the Score.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from smd.transfer.repertoire import Piece
 from smd.transfer.travelling import NOWHERE_M
 
 FASTEST_PLAYED = 3.0
-"""How many times as fast as it was made a clip may be played before it is worth a line."""
+"""Multiple of a clip's own pace beyond which there is a warning."""
 
 SEEN = 0.5
-"""Presence from which a gait's steps count: what is stood through has none."""
+"""Blend weight from which a gait's steps count: a pause that is stood through has none."""
 
 
 def demands(device: str, moves: Sequence[Move[Piece]]) -> Iterator[str]:
-    """Yield a line for each action of a performer that its doodle asks too much of, in order.
+    """Yield a line for each action of which a performer's doodle demands too much, in order.
 
-    Each names the first phrase's time and the most that is asked for.
+    Each names the first phrase's time and the greatest demand.
     """
     hurried: dict[str, list[tuple[float, float]]] = {}
     stretched: dict[str, list[tuple[float, float]]] = {}
@@ -75,7 +75,7 @@ def demands(device: str, moves: Sequence[Move[Piece]]) -> Iterator[str]:
 
 
 def fastest_pace(move: Move[Piece]) -> float:
-    """Return how many times as fast as it was made a clip is played at the most; 0 of a cycle."""
+    """Return the greatest pace of a clip, as a multiple of its own; 0 for a cycle."""
     if move.piece.clip.cyclic:
         return 0.0
     pace_hz = np.diff(move.frame) / np.diff(move.time_s)
@@ -83,12 +83,12 @@ def fastest_pace(move: Move[Piece]) -> float:
 
 
 def way_of(move: Move[Piece]) -> float:
-    """Return how far a move goes over the ground, in metres."""
+    """Return the length of a move's path over the ground, in metres."""
     return float(np.linalg.norm(np.diff(move.root_m, axis=0), axis=-1).sum())
 
 
 def steps_per_min(move: Move[Piece]) -> float:
-    """Return how many steps a minute a gait takes while it is seen."""
+    """Return a gait's steps a minute while it is seen."""
     assert move.piece.gait is not None
     seen = 0.5 * (move.presence[1:] + move.presence[:-1]) >= SEEN
     lasting_s = np.diff(move.time_s)[seen].sum()
@@ -97,7 +97,7 @@ def steps_per_min(move: Move[Piece]) -> float:
 
 
 def stride_ratio(move: Move[Piece]) -> float:
-    """Return how much longer than its clip's a gait's stride is, on average."""
+    """Return a gait's mean stride over its clip's."""
     assert move.piece.gait is not None
     cycles = (move.frame[-1] - move.frame[0]) / move.piece.last_frame
     return way_of(move) / max(cycles, 1e-9) / move.piece.gait.stride_m

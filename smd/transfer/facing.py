@@ -21,22 +21,22 @@ TANGENT_SIGMA_S = 0.15
 half a turn takes 0.4 s and goes at most at 8.4 rad/s."""
 
 TURNING_S = 0.6
-"""Time in which a performer that stands turns to where its path goes on, before it does."""
+"""Time in which a standing performer turns to the path's next direction, before moving on."""
 
 NO_WAY_M = 0.05
 """Travel of a clip below which it has no direction of its own."""
 
 
 def by_prop(path: GroundPath, spans: Sequence[Span], pieces: Repertoire) -> GroundPath:
-    """Face where the prop does: who is moved backwards walks backwards."""
+    """Face along the prop's front: moved backwards, it makes its character walk backwards."""
     return path
 
 
 def by_path(path: GroundPath, spans: Sequence[Span], pieces: Repertoire) -> GroundPath:
-    """Face along the path while a phrase travels, so that its clip goes the way it was made to go.
+    """Face along the path while a phrase travels, so that its clip travels in its own direction.
 
-    A walk faces ahead, a walk backwards the other way, a side step across. Where the path stands
-    still, and while nothing travels, the heading is held; before the path goes on, it turns.
+    A walk faces ahead, a walk backwards the other way, a side step across. Where the path does not
+    move, and while nothing travels, the heading is held; before the path continues, it turns.
     """
     tangent, moves = tangents(path)
     goes, own_rad = np.zeros(len(moves), dtype=bool), np.zeros(len(moves))
@@ -99,6 +99,6 @@ def held(
 
 
 def own_direction_rad(piece: Piece) -> float:
-    """Return which way a clip travels, seen from where it faces: to the left is positive."""
+    """Return the direction in which a clip travels from its own heading, positive to the left."""
     left, ahead = piece.root.position_m[-1]
     return float(np.arctan2(left, ahead)) if np.hypot(left, ahead) > NO_WAY_M else 0.0

@@ -12,7 +12,7 @@ from smd.geometry.arrays import BoolArray
 from smd.geometry.runs import runs_of_true
 
 SHORTEST_STRIDE, LONGEST_STRIDE = 0.75, 1.25
-"""How far a stride may shrink or stretch from its clip's: within a human leg's means."""
+"""Limits of a stride over its clip's: what human legs can do."""
 
 MOST_WALKING_PER_MIN = 140.0
 """Steps a minute from which people run rather than walk [1]_.
@@ -37,7 +37,7 @@ HALF_CYCLE_TOLERANCE = 0.05
 
 @dataclass(frozen=True, slots=True, order=True)
 class Passing:
-    """A foot half through the air, where it passes the one that stands.
+    """The middle of a foot's swing, where it passes the standing one.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Gait:
 
     @property
     def most_steps_per_min(self) -> float:
-        """How many steps a minute may be asked for: a human's, or the clip's own if it has more."""
+        """Limit of steps a minute: a human's, or the clip's own cadence if that is higher."""
         human = MOST_RUNNING_PER_MIN if self.flies else MOST_WALKING_PER_MIN
         return max(human, 60.0 * len(self.passings) / self.duration_s)
 
@@ -127,7 +127,7 @@ def gait_of(clip: Clip, stands: Mapping[int, BoolArray]) -> Gait:
 
 
 def phase_after(before: Gait, phase: float, after: Gait) -> float | None:
-    """Return where a gait goes on from another: where the same foot passes; None if it has none.
+    """Return the phase at which a gait continues another: the same foot passes; None without one.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The ground root of a clip: how its travel and turn go on frame by frame."""
+"""The root motion of a clip: position and heading of its ground root in each frame."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _EXECUTION = STAGES.index("execution")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroundRoot:
-    """A clip's ground root, seen from where it stands in the first frame.
+    """A clip's root motion, in the coordinate frame of its first frame.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class GroundRoot:
 
 
 def ground_root(clip: Clip) -> GroundRoot:
-    """Return how a clip's ground root goes."""
+    """Return a clip's root motion."""
     yaw = np.unwrap(heading_rad(clip.rotation_xyzw[:, 0]))
     over_ground = clip.translation_m[:, 0, [0, 2]]
     return GroundRoot(turned(over_ground - over_ground[0], -yaw[0]), yaw - yaw[0])
@@ -58,8 +58,8 @@ def turned(over_ground: FloatArray, angle_rad: FloatArray | float) -> FloatArray
 def executed(clip: Clip, root: GroundRoot) -> FloatArray:
     """Return the share ``(n,)`` of a clip's travel that is done by each frame.
 
-    The ground root stays in place up to the execution's start and from its end on [1]_; in
-    between it goes as the clip's own, or, where the clip has no travel of its own, evenly.
+    The ground root stays in place up to the execution's start and from its end on [1]_. In between
+    it moves as in the clip, or, where the clip does not travel, at constant speed.
 
     References
     ----------

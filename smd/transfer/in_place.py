@@ -17,21 +17,21 @@ TURNING_RAD = np.radians(15.0)
 """A clip whose ground root turns by more is a turn; a prop that turns by less has not turned."""
 
 MOST_TURN_PER_PASS = 1.5
-"""How many times its own angle a turning clip turns at most; beyond that it is played again."""
+"""Largest angle of a turning clip over its own; for a larger one it is played again."""
 
 FACING_S = 0.6
-"""Least time in which a pausing character turns to where its next phrase faces."""
+"""Least time in which a pausing character turns to the heading of its next phrase."""
 
 FACING_RAD_S = 2.5
-"""How fast it turns on the way, on average, where there is time for it."""
+"""Mean speed of that turn, where there is time for it."""
 
 FACING_EARLY_S = 0.25
-"""How long before that phrase it has done so, where there is time."""
+"""How long before that phrase the turn ends, where there is time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Facing:
-    """How a performer turns, in a pause, to where its next phrase faces.
+    """How a performer turns, in a pause, to the heading of its next phrase.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Facing:
     done_s: float
 
     def added_at(self, time_s: FloatArray) -> FloatArray:
-        """Return the angle that is turned by some times."""
+        """Return the angle that it has turned at some times."""
         share = (time_s - self.begin_s) / max(self.done_s - self.begin_s, 1e-9)
         return self.turn_rad * smootherstep(share)
 
@@ -59,7 +59,7 @@ def facing(turn_rad: float, start_s: float, end_s: float) -> Facing:
 def idling(
     piece: Piece, start_s: float, end_s: float, at: Placement, facing: Facing, *, clock_s: float
 ) -> Move[Piece]:
-    """Stand where the last phrase ended, and face where the next one will at its start.
+    """Stand where the last phrase ended, and turn to the heading at the next one's start.
 
     Parameters
     ----------
@@ -85,9 +85,9 @@ def idling(
 def gesture(
     piece: Piece, start_s: float, end_s: float, at: Placement, *, pause_s: float = 0.0
 ) -> Move[Piece]:
-    """Play a clip on the spot, once, or as often as its own time allows if it is cyclic.
+    """Play a clip in place, once, or for as many cycles as its own duration allows.
 
-    The heading holds. A step that the clip itself takes is taken.
+    The heading is held. A step that the clip itself takes is kept.
 
     Parameters
     ----------
@@ -118,15 +118,15 @@ def gesture(
 
 
 def turns(piece: Piece) -> bool:
-    """Return whether a clip is a turn on the spot."""
+    """Return whether a clip is a turn in place."""
     return abs(piece.root.turn_rad) > TURNING_RAD
 
 
 def turn_passes(piece: Piece, prop_turn_rad: float) -> tuple[float, ...]:
     """Return the angles of the passes of a turning clip that turn as far as the prop did.
 
-    A large turn takes several passes. A prop that hardly turned, or turned the other way, leaves
-    the clip its own angle: who asks for a turn to the left shall see one.
+    A large turn takes several passes. If the prop hardly turned, or turned the other way, the clip
+    keeps its own angle: a turn to the left that was asked for is seen.
     """
     own_rad = piece.root.turn_rad
     same_way = prop_turn_rad * own_rad > 0.0 and abs(prop_turn_rad) > TURNING_RAD
@@ -144,7 +144,7 @@ def turn(
     *,
     pause_s: float = 0.0,
 ) -> Move[Piece]:
-    """Turn by an angle, with the clip's own course of turning; `pause_s` as in `gesture`."""
+    """Turn by an angle, along the clip's own heading curve; `pause_s` as in `gesture`."""
     pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
     time_s = knots(start_s, pacing.end_s)
     frame = pacing.frame_at(time_s)

@@ -1,10 +1,10 @@
-"""Pacing: how fast a clip that is played once goes, and when it is left.
+"""Pacing: the retiming of a clip that is played once, and when it is left.
 
-A phrase is what the player's hand did, and the strike has to come when the hand's did: so far a
-clip goes evenly through the phrase, as in the paper. But a clip also shows how the body comes back,
-and most would do that twice as fast as they were made. So what follows the execution takes its own
-time: the body comes back in the pause after the phrase, as far as there is one, and a transition
-does the rest.
+The strike has to come when the hand's did. So until its execution ends, a clip advances evenly
+through the phrase, as in the paper. But a clip also shows how the body returns to rest, and within
+the phrase most clips would play that twice as fast as they were made. So what follows the execution
+has its own pace: the body returns in the pause after the phrase, as far as there is one, and
+blending does the rest.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import inverse, rotate
 
 NEAR_M = 0.2
-"""Mean distance of the joints from where a clip's last pose has them, up to which a transition
-does the rest: a raised arm comes down, but nobody gets up in it."""
+"""Mean distance of the joints from a clip's last pose up to which blending does the rest: it can
+lower an arm, but not get a body up from the floor."""
 
 RECOVERING = 0.6
-"""Share of a pause in which a body may come back; then it is at rest."""
+"""Share of a pause in which a body may return to rest; then it is at rest."""
 
 EASED_S = 0.04
-"""Over which the pace changes."""
+"""Time over which the pace changes."""
 
 _EXECUTION, _FOLLOW_THROUGH = (STAGES.index(name) for name in ("execution", "follow_through"))
 
@@ -58,7 +58,7 @@ class Pacing:
 
 
 def core_frame(clip: Clip) -> int:
-    """Return the frame by which a clip has shown what it is about: its transition's first."""
+    """Return the last frame of a clip's follow-through: there its transition begins."""
     return int(clip.stage_end_frames[_FOLLOW_THROUGH])
 
 

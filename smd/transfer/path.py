@@ -1,4 +1,4 @@
-"""GroundPath: where a device's doodles go over the ground, and which way its prop faces."""
+"""GroundPath: a device's path and heading over the ground."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ class GroundPath(Frozen):
 def ground_path(doodles: Sequence[Doodle], scene: SceneScale) -> GroundPath:
     """Project a device's doodles to the ground.
 
-    Where tracking was lost between two doodles, the path stays where it was and goes on from
-    there: nobody saw how the prop came to its new place.
+    Where tracking was lost between two doodles, the path stays where it was and continues from
+    there: how the prop came to its new position is not known.
     """
     times, places, fronts = [], [], []
     here = None
@@ -97,7 +97,7 @@ def _smoothed(doodle: Doodle, scene: SceneScale) -> tuple[FloatArray, FloatArray
 
 
 def front_over_ground(orientation_xyzw: FloatArray) -> FloatArray:
-    """Return which way a prop faces over the ground: x and z ``(…, 2)``, of any length.
+    """Return a prop's front over the ground: x and z ``(…, 2)``, of any length.
 
     It is the front's projection as long as the prop is held about level. The steeper its front
     points up or down, the more its underside or its back decides: a figurine that bows faces

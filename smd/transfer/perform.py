@@ -165,7 +165,7 @@ def check_part(part: Part, recording: Recording, library: ActionLibrary) -> None
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Staged:
-    """A performer that knows where it goes and what it does there.
+    """A performer with its moves.
 
     Attributes
     ----------
@@ -192,7 +192,7 @@ def entrances(
     expressiveness: float,
     heading: str,
 ) -> list[Staged]:
-    """Lay out what each performer does, as if alone, from the first of some times to the last.
+    """Return the moves of each performer, as if alone, from the first of some times to the last.
 
     Parameters are those of `perform`.
     """
@@ -205,7 +205,7 @@ def entrances(
 
 
 def kept_apart(alone: Sequence[Staged], cast: Cast) -> list[Staged]:
-    """Return performers that do not walk through each other."""
+    """Return performers whose paths keep a least distance from each other."""
     heights_m = _heights_m([one.part.device for one in alone], cast)
     together = apart([one.moves for one in alone], heights_m)
     return [replace(one, moves=moves) for one, moves in zip(alone, together, strict=True)]
@@ -224,7 +224,7 @@ def enter(
     idling_ahead: float,
     heading: str,
 ) -> Staged:
-    """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
+    """Return the moves of a performer, ``idling_ahead`` of a cycle ahead in its idle clip."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
     spans = timeline(part, float(time_s[0]), float(time_s[-1]))
     path = HEADINGS[heading](ground_path(recording.of(part.device), scene), spans, pieces)
@@ -235,6 +235,6 @@ def enter(
 
 
 def _idling_ahead() -> Iterator[float]:
-    """Return how far ahead each performer is in its idling, so that no two breathe as one."""
+    """Return how far ahead each performer is in its idle clip, so that no two move in step."""
     golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
     return (golden * i % 1.0 for i in itertools.count())

@@ -1,4 +1,4 @@
-"""Repertoire: what a performer can do, each clip studied once."""
+"""Repertoire: the clips of a performer, each prepared once."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.pacing import near_share
 
 SAME_POSE = 0.999
-"""Cosine of half the angle up to which all joints of two poses are turned alike: 5 degrees."""
+"""Cosine of half the angle up to which two rotations of a joint count as equal: 5 degrees."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
-    """An action's clip, with what is known of it.
+    """An action's clip, with what was computed from it.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Piece:
         return sampled(self.clip, frame)
 
     def stands_at(self, frame: FloatArray) -> Footwork:
-        """Return what feet do at fractional frames ``(n,)``: whether they stand at the nearest."""
+        """Return the foot contacts at fractional frames ``(n,)``: those of the nearest frame."""
         last = self.last_frame
         laps = np.floor(frame / last) if self.clip.cyclic else np.zeros(len(frame))
         nearest = np.mod(frame, last) if self.clip.cyclic else frame
@@ -109,7 +109,7 @@ class Repertoire:
         return self.pieces[piece_name(phrase.action, phrase.effort, self.expressiveness)]
 
     def rest_after(self, action: str) -> str:
-        """Return the action whose clip is idled in after another one."""
+        """Return the action whose clip is the idle clip after another one."""
         return self.rests.get(action, IDLE)
 
 
@@ -133,7 +133,7 @@ def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
 def repertoire(
     library: ActionLibrary, phrases: Iterable[Phrase], *, expressiveness: float
 ) -> Repertoire:
-    """Study the clips of some phrases, as they are played, and of idling."""
+    """Prepare the clips of some phrases, with their Effort, and the idle clips."""
     phrases = list(phrases)
     actions = {phrase.action for phrase in phrases}
     rests = {name: rest for name in actions if (rest := library.action(name).rest)}
@@ -175,7 +175,7 @@ def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
 def piece_of(
     clip: Clip, *, travels: bool, legs: Sequence[Leg], neutral: Piece | None = None
 ) -> Piece:
-    """Study one clip.
+    """Prepare one clip.
 
     Parameters
     ----------

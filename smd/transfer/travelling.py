@@ -13,21 +13,21 @@ from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
 
 NOWHERE_M = 0.05
-"""A way in the scene that is no way: less than a foot shifts while standing."""
+"""Length up to which a path in the scene is none: less than a foot shifts while standing."""
 
 SETTLING_S = 0.35
-"""Time in which a gait gets going where its phrase begins, and comes to rest where it ends; never
+"""Time in which a gait accelerates at the start of its phrase and comes to rest at the end; never
 more than a quarter of the phrase."""
 
 FADING_S = 0.05
-"""Smoothing of how much of a gait is seen: a pause on the way is not dropped into."""
+"""Smoothing of a gait's blend weight: a pause on the way does not begin abruptly."""
 
 FULL_GAIT_SPEED = 0.4
-"""Share of a gait's usual speed above which it is seen in full; below, it fades into standing."""
+"""Share of a gait's usual speed above which its blend weight is 1; below, it fades to standing."""
 
 TAKE_OFF_S = 0.6
-"""Time in which a clip that never touches the ground leaves it and comes back; never more than a
-third of the phrase."""
+"""Time in which a clip that never touches the ground takes off, and lands; never more than a third
+of the phrase."""
 
 
 def along_path(
@@ -41,9 +41,9 @@ def along_path(
     from_gait: bool = False,
     into_gait: bool = False,
 ) -> Move[Piece]:
-    """Go along the path with a cyclic clip.
+    """Follow the path with a cyclic clip.
 
-    What steps goes by the distance travelled, what never touches the ground by time.
+    A gait advances by the distance travelled, a clip that never touches the ground by time.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def leap(
     *,
     pause_s: float = 0.0,
 ) -> Move[Piece]:
-    """Go along the path with a clip that travels once, such as a jump.
+    """Follow the path with a clip that is played once, such as a jump.
 
     The ground root follows the path, re-timed so that it moves during the clip's execution alone
     and as the clip's own does; it turns on the way as the prop did from start to end.
@@ -137,10 +137,10 @@ def leap(
 
 
 def _settling_s(path: GroundPath, time_s: FloatArray) -> tuple[float, float]:
-    """Return how long a gait takes to get going and to come to rest, beyond what the prop does.
+    """Return how long a gait takes to accelerate and to come to rest, where the prop does not.
 
     A phrase may begin or end while the prop is moving, since recognition cuts where the tokens
-    change. The character passes the same places, a little faster in between.
+    change. The character passes the same positions, a little faster in between.
     """
     duration_s = time_s[-1] - time_s[0]
     step_s = min(1.0 / 60.0, 0.25 * duration_s)
@@ -153,7 +153,7 @@ def _settling_s(path: GroundPath, time_s: FloatArray) -> tuple[float, float]:
 
 
 def _take_off_s(time_s: FloatArray) -> tuple[float, float]:
-    """Return how long a flight takes to leave the ground and to come back to it."""
+    """Return how long a flight takes to take off, and to land."""
     over_s = min(TAKE_OFF_S, (time_s[-1] - time_s[0]) / 3.0)
     return over_s, over_s
 
@@ -161,7 +161,7 @@ def _take_off_s(time_s: FloatArray) -> tuple[float, float]:
 def _speed_presence(
     time_s: FloatArray, way_m: FloatArray, usual_m_s: float, *, from_gait: bool, into_gait: bool
 ) -> FloatArray:
-    """Return how much of a gait is seen: none at rest, all of it from a share of its speed."""
+    """Return a gait's blend weight: 0 at rest, 1 from a share of its speed on."""
     duration_s = time_s[-1] - time_s[0]
     if way_m[-1] <= NOWHERE_M:
         return np.ones_like(time_s)
@@ -173,7 +173,7 @@ def _speed_presence(
 
 
 def _ends(time_s: FloatArray, over_s: float, *, from_same: bool, into_same: bool) -> FloatArray:
-    """Return 1, but for a rise from 0 at the start and a fall to 0 at the end, where wanted."""
+    """Return 1, except for a rise from 0 at the start and a fall to 0 at the end, where wanted."""
     rise = np.ones_like(time_s) if from_same else smootherstep((time_s - time_s[0]) / over_s)
     fall = np.ones_like(time_s) if into_same else smootherstep((time_s[-1] - time_s) / over_s)
     return rise * fall

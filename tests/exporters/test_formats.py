@@ -60,10 +60,10 @@ def test_a_format_without_options_refuses_them_and_is_written_without(
     def write_frames(performance, path) -> None:
         path.write_text(str(len(performance)))
 
-    frames = exporters.ExportFormat((".xyz",), lambda: write_frames)
+    frames = exporters.ExportFormat((".frames",), lambda: write_frames)
     monkeypatch.setattr(exporters, "FORMATS", (*exporters.FORMATS, frames))
-    path = tmp_path / "take.xyz"
-    with pytest.raises(ExportError, match=r"take\.xyz: expected \.usda, .* with frame, found"):
+    path = tmp_path / "take.frames"
+    with pytest.raises(ExportError, match=r"take\.frames: expected \.usda, .* with frame, found"):
         exporters.write(performance, path, frame=StageFrame.named("z", "m"))
     assert not path.exists()
     exporters.write(performance, path)
