@@ -28,7 +28,7 @@ from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
 from smd.transfer.perform import entrances, kept_apart
 from smd.transfer.repertoire import Piece
-from smd.transfer.stage import stage_for
+from smd.transfer.scene import scene_scale
 
 LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
 """NVIDIA kimodo's: toes below the first height are taken to touch, above the speed to skate."""
@@ -91,7 +91,7 @@ def played(
     performance: Performance, recording: Recording, score: Score, library: Library
 ) -> Iterator[Played]:
     """Yield the actors of a performance, in full Effort, with their moves."""
-    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
+    stage = scene_scale(recording, library.character.height_m, score.figure_height_m)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     cast = cast_of(library)
     alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop")

@@ -17,10 +17,9 @@ from benchmarks.composed import FRAME, minutes_of
 from benchmarks.gestures import DATA
 from benchmarks.recognition import poisson_interval
 from benchmarks.tally import Found
-from smd.doodle import Doodle
+from smd.doodle import HEADSETS, Doodle
 from smd.errors import DoodleError
 from smd.formats import read_recording
-from smd.pipeline import HEADSETS
 from smd.recognition.action import Action
 
 DEVELOPED_PLAY = ("dance", "grabLeft")

@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.papers_effort import fit_papers_method
 from benchmarks.process import picture_folder, run
 from laban import AXES, EffortModel, EffortStream, RigidMotion, load_effort_model, read_effort
 from laban.committee import folds
@@ -27,7 +28,6 @@ from laban.description import describe
 from laban.effort import POLES
 from laban.features import effort_features
 from laban.model import effort_of
-from laban.naive_bayes import fit_papers_method
 from laban.own import OwnMeasure, measure_of
 from laban.training import AxisReport, Training
 from smd.doodle import Doodle, Recording

@@ -24,8 +24,9 @@ live = LiveRecognition(recognizer, load_effort_model(), names)
 for frame in source.poses():
     for known in live.push(frame.time_s, rows_of(frame, names, hold_to_draw=True)):
         print(
-            f"at {frame.time_s:5.2f} s: {known.device} did {known.span.action} from "
-            f"{known.span.start_s:.2f} to {known.span.end_s:.2f} s, time {known.effort.time:+.2f}"
+            f"at {frame.time_s:5.2f} s: {known.device} did {known.detection.action} from "
+            f"{known.detection.start_s:.2f} to {known.detection.end_s:.2f} s, "
+            f"time {known.effort.time:+.2f}"
         )
 for known in live.finish():
-    print(f"at the end: {known.device} did {known.span.action}")
+    print(f"at the end: {known.device} did {known.detection.action}")

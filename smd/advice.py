@@ -309,11 +309,14 @@ def _explained(doodles: Sequence[Doodle], recognizers: Mapping[str, Recognizer])
         recognizer = recognizers[doodle.device]
         runs = recognizer.runs_of(doodle, motion)
         extent = np.array([run.travel_heights + run.turn_rad for run in runs])
-        spans = recognizer.spot_runs(motion, runs, recognizer.intent_of(doodle))
+        detections = recognizer.spot_runs(motion, runs, recognizer.intent_of(doodle))
         moved += float(extent.sum())
-        explained += sum(float(extent[span.first_run : span.last_run].sum()) for span in spans)
-        phrases += len(spans)
-        certainty += sum(span.confidence for span in spans)
+        explained += sum(
+            float(extent[detection.first_run : detection.last_run].sum())
+            for detection in detections
+        )
+        phrases += len(detections)
+        certainty += sum(detection.confidence for detection in detections)
     return Explained(phrases, certainty, explained / moved if moved else 0.0)
 
 

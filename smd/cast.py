@@ -43,7 +43,7 @@ class Cast(Frozen):
 
     Attributes
     ----------
-    shared : of those that have none of their own; its character sets the stage's scale.
+    shared : of those that have none of their own; its character sets the scene's scale.
     own : by the performer's device.
     """
 

@@ -71,6 +71,8 @@ class Parser:
         cast = cast_of(self.library)
         libraries = dict.fromkeys((cast.shared, *cast.own.values()))
         follows = self.unexplained == "follow"
+        if self.devices is not None:
+            object.__setattr__(self, "devices", tuple(self.devices))
         object.__setattr__(self, "_cast", cast)
         object.__setattr__(self, "_recognizers", {one: self._compiled(one) for one in libraries})
         object.__setattr__(self, "_paces", {one: paces(one) for one in libraries if follows})
@@ -131,9 +133,9 @@ class Parser:
             except DoodleError as error:
                 left_out.append(f"left out: {error}")
         played = [
-            (span, one.motion.between(span.start_s, span.end_s))
+            (detection, one.motion.between(detection.start_s, detection.end_s))
             for one in understood
-            for span in one.spans
+            for detection in one.detections
         ]
         phrases = going_along(
             tuple(_phrases(played, self._model)),
@@ -205,14 +207,14 @@ def _phrases(
     Each phrase's Effort is read of the phrase alone, as it is while somebody plays: what else they
     play is what they mean as well as how they move anyway.
     """
-    for span, motion in played:
+    for detection, motion in played:
         yield Phrase(
-            action=span.action,
-            start_s=round(span.start_s, 3),
-            end_s=round(span.end_s, 3),
+            action=detection.action,
+            start_s=round(detection.start_s, 3),
+            end_s=round(detection.end_s, 3),
             effort=read_effort(motion, model),
-            confidence=span.confidence,
-            alternatives=tuple(Alternative(*other) for other in span.alternatives),
+            confidence=detection.confidence,
+            alternatives=tuple(Alternative(*other) for other in detection.alternatives),
         )
 
 

@@ -30,7 +30,7 @@ from smd.recognition.lever import LeverArm
 from smd.recognition.recognizer import Recognizer
 from smd.score import Score
 from smd.transfer.path import ground_path
-from smd.transfer.stage import stage_for
+from smd.transfer.scene import scene_scale
 from tests.naive.puppet import performance, waving_clip
 
 
@@ -65,7 +65,7 @@ def roots() -> list[Any]:
     skeleton = actor.character.skeleton
     recording = smd.Recording(actor.doodles, "made up", metadata={"up": "y"})
     arm = [f"left_{part}" for part in ("upper_arm", "lower_arm", "hand")]
-    stage = stage_for(recording, 1.75, 0.175)
+    stage = scene_scale(recording, 1.75, 0.175)
     square = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
     pattern = library.action("wave").pattern
     return [

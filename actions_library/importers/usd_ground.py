@@ -22,7 +22,7 @@ def read_terrain(path: Path | str) -> Terrain:
 
     Wherever the file's up axis, unit, transforms and orientation have them, they become metres,
     +Y up, counter-clockwise from outside. Guides, proxies and what is invisible are left out. The
-    terrain's origin is the stage's: the middle of the devices' first places.
+    terrain's origin is the scene's: the middle of the devices' first places.
 
     Raises
     ------

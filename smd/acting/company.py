@@ -1,6 +1,6 @@
-"""Company: several performers on one stage, kept from walking through each other.
+"""Company: several performers in one scene, kept from walking through each other.
 
-Props pass each other in the hand's width that keeps two hands apart; on a stage that is ten times
+Props pass each other in the hand's width that keeps two hands apart; in a scene that is ten times
 the table their characters would go through each other as soon as those widths are misjudged. So
 where two come nearer than their bodies allow, their ways bend aside, smoothly, and only there.
 """

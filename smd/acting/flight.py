@@ -37,7 +37,7 @@ in to the speed that it ends with: a higher jump crouches deeper, before and aft
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Height:
-    """How high a prop was, on the stage.
+    """How high a prop was, in the scene.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Height:
 
 
 def height_of(doodles: Sequence[Doodle]) -> Height:
-    """Return how high a device's prop was, given its doodles at the stage's scale."""
+    """Return how high a device's prop was, given its doodles at the scene's scale."""
     return Height(
         np.concatenate([doodle.time_s for doodle in doodles]),
         np.concatenate([doodle.position_m[:, 1] for doodle in doodles]),

@@ -15,7 +15,7 @@ KNOT_RATE_HZ = 120.0
 
 
 class Placement(NamedTuple):
-    """Where a ground root stands, ``(2,)`` x and z on the stage, and which way it faces."""
+    """Where a ground root stands, ``(2,)`` x and z in the scene, and which way it faces."""
 
     position_m: FloatArray
     heading_rad: float
@@ -72,7 +72,7 @@ class Move(Generic[PlayedT]):
     piece : what is played.
     start_s, end_s : on the recording's clock.
     time_s : (k,) increasing; before the first and after the last knot, the move holds still.
-    root_m : (k, 2) x and z of the ground root on the stage.
+    root_m : (k, 2) x and z of the ground root in the scene.
     heading_rad : (k,) of the ground root.
     frame : (k,) of what is played, fractional, not decreasing; beyond the last frame of a cycle.
     presence : (k,) in [0, 1], how much of it is seen; the rest is idling.

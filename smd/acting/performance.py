@@ -28,7 +28,7 @@ class Actor(Frozen):
     character : what is seen.
     poses : local, a frame each, rotations sign-continuous; joint 0 is the ground root in the world.
     phrases : what it performs, in time order, where that has names.
-    doodles : what it was drawn with, at stage scale (metres of the character's world), if it was.
+    doodles : what it was drawn with, if it was, in metres of the character's world.
     """
 
     name: str
@@ -53,7 +53,7 @@ class Actor(Frozen):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Performance(Frozen):
-    """Everything that is on stage, at an even rate.
+    """Everything that is in a scene, at an even rate.
 
     Attributes
     ----------

@@ -31,12 +31,12 @@ class Decided(NamedTuple):
     Attributes
     ----------
     device : its name.
-    span : the action, and when.
-    effort : of the span, read as `smd.parse` reads it when all is over.
+    detection : the action, and when.
+    effort : of the detection, read as `smd.parse` reads it when all is over.
     """
 
     device: str
-    span: Detection
+    detection: Detection
     effort: Effort
 
 
@@ -126,12 +126,12 @@ class _Follower:
     ) -> list[Decided]:
         """Take one sample; return the phrases that it decides."""
         self.last_s = time_s
-        spans = self._spans.push(time_s, position_m, orientation_xyzw, drawing)
-        return [self._decided(span) for span in spans]
+        detections = self._spans.push(time_s, position_m, orientation_xyzw, drawing)
+        return [self._decided(detection) for detection in detections]
 
     def finish(self) -> list[Decided]:
         """Return the phrases that were not decided yet."""
-        return [self._decided(span) for span in self._spans.finish()]
+        return [self._decided(detection) for detection in self._spans.finish()]
 
     def _keep(self, motion: RigidMotion) -> None:
         """Keep smoothed motion for phrases to come, and drop what is too old."""
@@ -141,17 +141,18 @@ class _Follower:
         while self._smoothed[0].time_s[-1] < motion.time_s[-1] - KEPT_S:
             self._smoothed.popleft()
 
-    def _decided(self, span: Detection) -> Decided:
-        """Return a span with its Effort."""
+    def _decided(self, detection: Detection) -> Decided:
+        """Return a detection with its Effort."""
         parts = [
             motion
             for motion in self._smoothed
-            if motion.time_s[-1] >= span.start_s - 1e-9 and motion.time_s[0] <= span.end_s + 1e-9
+            if motion.time_s[-1] >= detection.start_s - 1e-9
+            and motion.time_s[0] <= detection.end_s + 1e-9
         ]
         if not parts:
-            return Decided(self._device, span, Effort())
+            return Decided(self._device, detection, Effort())
         whole = RigidMotion(
             *(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(parts[0]))
         )
-        effort = read_effort(whole.between(span.start_s, span.end_s), self._model)
-        return Decided(self._device, span, effort)
+        effort = read_effort(whole.between(detection.start_s, detection.end_s), self._model)
+        return Decided(self._device, detection, effort)

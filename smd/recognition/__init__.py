@@ -1,4 +1,4 @@
-"""From a doodle to spans of actions: tokens, patterns, automata, verification."""
+"""From a doodle to detected actions: tokens, patterns, automata, verification."""
 
 from __future__ import annotations
 

@@ -66,12 +66,6 @@ def nearest_words(
     return _nearest(_walk(a), _walk(b), most, replaceable)
 
 
-def shared_word(a: Pattern, b: Pattern) -> Word | None:
-    """Return the shortest string that both patterns accept; None if there is none."""
-    found = nearest_words(a, b, most=0)
-    return found.first if found else None
-
-
 def inner_word(a: Pattern, part: Pattern) -> Word | None:
     """Return the shortest string of ``part`` that lies inside a string of ``a``; None if none.
 
@@ -108,11 +102,6 @@ def holding_word(a: Pattern, part: Pattern) -> Word | None:
     """Return the shortest string of ``a`` with one of ``part`` inside; None if none has."""
     found = _nearest(_walk(a), _around(_walk(part), a), 0)
     return found.first if found else None
-
-
-def same_language(a: Pattern, b: Pattern) -> bool:
-    """Tell whether two patterns accept the same strings."""
-    return extra_word(a, b) is None and extra_word(b, a) is None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -28,20 +28,20 @@ class Spotter(Protocol):
     def named(
         self, motion: RigidMotion, runs: Sequence[TokenRun], segments: Sequence[Segment]
     ) -> Sequence[Detection]:
-        """Return the spans of stretches of runs that were chosen."""
+        """Return the detections of stretches of runs that were chosen."""
 
 
 Movement: TypeAlias = tuple[Token, float, float]
 """A run that moves: its token, start and end."""
 
 HORIZON_S = 0.5
-"""A span is final this long after its last movement, at the latest."""
+"""A detection is final this long after its last movement, at the latest."""
 
 BLOCK_S = 0.25
-"""Interval of looks; the stream also looks when a span falls due."""
+"""Interval of looks; the stream also looks when a detection falls due."""
 
 SOON_S = 0.1
-"""Interval to the next look, if the next span to fall due is not over yet."""
+"""Interval to the next look, if the next detection to fall due is not over yet."""
 
 MEMORY_S = 4.0
 """Movement that nothing has explained for this long is dropped."""
@@ -59,12 +59,12 @@ _SAME_S = 0.025
 class RecognitionStream:
     """Recognises actions while they are drawn.
 
-    Samples are smoothed as they come (`SmoothingStream`). Every `BLOCK_S`, and when a span falls
-    due, the undecided motion is cut into tokens and given to the spotter, as if it were the whole
-    recording. Spans that ended ``horizon_s`` ago (less two samples) are final; the rest is decided
-    again next time. So a span is final as soon as the offline pass over the samples so far finds
-    that it ended so long ago. ``docs/streaming.md`` explains where that differs from the offline
-    pass over everything.
+    Samples are smoothed as they come (`SmoothingStream`). Every `BLOCK_S`, and when a detection
+    falls due, the undecided motion is cut into tokens and given to the spotter, as if it were the
+    whole recording. Detections that ended ``horizon_s`` ago (less two samples) are final; the rest
+    is decided again next time. So a detection is final as soon as the offline pass over the samples
+    so far finds that it ended so long ago. ``docs/streaming.md`` explains where that differs from
+    the offline pass over everything.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class RecognitionStream:
     figure_height_m
         Height of the figurine that the prop stands for.
     horizon_s
-        How long after its last movement a span is final, at least `BLOCK_S`; longer is nearer
+        How long after its last movement a detection is final, at least `BLOCK_S`; longer is nearer
         to the offline pass.
     listener
         Called with each piece of smoothed motion, as it follows.
@@ -107,7 +107,7 @@ class RecognitionStream:
         orientation_xyzw: ArrayLike,
         drawing: bool | None = None,
     ) -> list[Detection]:
-        """Take one sample and return the spans that have become final, in time order.
+        """Take one sample and return the detections that have become final, in time order.
 
         ``drawing`` says whether the user means to draw; None where nothing says so.
 
@@ -127,7 +127,7 @@ class RecognitionStream:
         return self._settled(time_s - self._settling_s)
 
     def finish(self) -> list[Detection]:
-        """Return the spans that were not final yet; the doodle is over."""
+        """Return the detections that were not final yet; the doodle is over."""
         self._extend(self._smoothing.finish())
         return self._settled(np.inf)
 
@@ -139,7 +139,7 @@ class RecognitionStream:
             self._arrays = tuple(map(np.concatenate, zip(kept, new, strict=True)))
 
     def _settled(self, settled_s: float) -> list[Detection]:
-        """Return the spans that ended by then, and forget what plays no part any more."""
+        """Return the detections that ended by then, and forget what plays no part any more."""
         if not self._arrays or len(self._arrays[0]) < 2:
             return []
         motion = RigidMotion(*self._arrays)
@@ -171,11 +171,11 @@ class RecognitionStream:
         self._look_s = min(self._look_s, due_s + self._settling_s)
         numbered = [
             replace(
-                span,
-                first_run=span.first_run + self._forgotten,
-                last_run=span.last_run + self._forgotten,
+                detection,
+                first_run=detection.first_run + self._forgotten,
+                last_run=detection.last_run + self._forgotten,
             )
-            for span in final
+            for detection in final
         ]
         if np.isfinite(settled_s):
             self._forget(runs, needed_s)

@@ -1,4 +1,4 @@
-"""Suggestions: movement that no span explains, and the most similar actions."""
+"""Suggestions: movement that no detection explains, and the most similar actions."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Unexplained:
-    """A stretch of movement that no span explains, and the likeliest actions, the best first."""
+    """Movement that no detection explains, and the likeliest actions, the best first."""
 
     start_s: float
     end_s: float
@@ -72,13 +72,13 @@ class Understood:
     ----------
     motion : smooth.
     runs : of its tokens.
-    spans : of its actions, in time order.
+    detections : of its actions, in time order.
     intent : whether its movement is taken to be meant.
     """
 
     motion: RigidMotion
     runs: Sequence[TokenRun]
-    spans: Sequence[Detection]
+    detections: Sequence[Detection]
     intent: Intent = Intent.FREE
 
 
@@ -89,12 +89,12 @@ def suggestions(
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
 ) -> list[Unexplained]:
-    """Return a performer's movements that no span explains and that resemble an action.
+    """Return a performer's movements that no detection explains and that resemble an action.
 
     Parameters
     ----------
     recognizer
-        That found the spans.
+        That found the detections.
     actions
         Those that it looks for.
     doodles
@@ -145,7 +145,7 @@ def _candidates(
 def stretches(
     doodle: Understood, *, figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M
 ) -> Iterator[tuple[float, tuple[float, float]]]:
-    """Yield the movement in each stretch that no span explains, with its start and end.
+    """Yield the movement in each stretch that no detection explains, with its start and end.
 
     What lies between rests is one stretch; where that is longer than a gesture, it is cut where
     the prop is slowest.
@@ -169,10 +169,10 @@ def pace_of(motion: RigidMotion, figure_height_m: float) -> FloatArray:
 
 
 def _between_rests(doodle: Understood) -> Iterator[tuple[int, int]]:
-    """Yield runs ``first`` to ``last`` (excluded) that move, are no span's, and no rest parts."""
+    """Yield runs ``first`` to ``last`` (excluded) that move, outside of detections and rests."""
     explained = np.zeros(len(doodle.runs), dtype=bool)
-    for span in doodle.spans:
-        explained[span.first_run : span.last_run] = True
+    for detection in doodle.detections:
+        explained[detection.first_run : detection.last_run] = True
     first = last = None
     for i, run in enumerate(doodle.runs):
         is_still = run.token == STILL

@@ -14,7 +14,7 @@ from smd.transfer.repertoire import Piece, Repertoire
 from smd.transfer.timeline import Span
 
 STILL_M_S = 0.25
-"""Speed on the stage below which a path has no direction: a hand's 2.5 cm/s, about its tremor."""
+"""Speed in the scene below which a path has no direction: a hand's 2.5 cm/s, about its tremor."""
 
 TANGENT_SIGMA_S = 0.15
 """Smoothing of the direction: a body turns less briskly than a hand changes its way. At a cusp,

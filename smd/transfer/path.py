@@ -15,10 +15,10 @@ from smd.geometry.arrays import FloatArray, frozen_array
 from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import rotate
 from smd.smoothing import RATE_HZ, smooth
-from smd.transfer.stage import Stage
+from smd.transfer.scene import SceneScale
 
 PATH_SIGMA_S = 0.06
-"""Smoothing of the place beyond `smd.smoothing`'s: the stage shows a hand's tremor ten times as
+"""Smoothing of the place beyond `smd.smoothing`'s: the scene shows a hand's tremor ten times as
 large. At a walk's 1.3 m/s a bend of 1 m radius is cut by v² σ² / 2r = 3 mm."""
 
 HEADING_SIGMA_S = 0.15
@@ -32,7 +32,7 @@ class GroundPath(Frozen):
     Attributes
     ----------
     time_s : (n,) increasing, on the recording's clock.
-    position_m : (n, 2) x and z on the stage, without the jumps between doodles.
+    position_m : (n, 2) x and z in the scene, without the jumps between doodles.
     heading_rad : (n,) the angle about +Y from +Z to the prop's front, without jumps of a whole
         turn.
     """
@@ -57,7 +57,7 @@ class GroundPath(Frozen):
         return np.asarray(np.interp(time_s, self.time_s, self.heading_rad))
 
 
-def ground_path(doodles: Sequence[Doodle], stage: Stage) -> GroundPath:
+def ground_path(doodles: Sequence[Doodle], scene: SceneScale) -> GroundPath:
     """Project a device's doodles to the ground.
 
     Where tracking was lost between two doodles, the path stays where it was and goes on from
@@ -66,7 +66,7 @@ def ground_path(doodles: Sequence[Doodle], stage: Stage) -> GroundPath:
     times, places, fronts = [], [], []
     here = None
     for doodle in doodles:
-        time_s, position_m, front = _smoothed(doodle, stage)
+        time_s, position_m, front = _smoothed(doodle, scene)
         jump = 0.0 if here is None else here - position_m[0]
         places.append(position_m + jump)
         here = places[-1][-1]
@@ -77,7 +77,7 @@ def ground_path(doodles: Sequence[Doodle], stage: Stage) -> GroundPath:
     return GroundPath(np.concatenate(times), np.concatenate(places), np.concatenate(fronts))
 
 
-def _smoothed(doodle: Doodle, stage: Stage) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _smoothed(doodle: Doodle, scene: SceneScale) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return a doodle's times, places (x, z) and fronts over the ground (x, z)."""
     try:
         motion = smooth(doodle)
@@ -88,7 +88,7 @@ def _smoothed(doodle: Doodle, stage: Stage) -> tuple[FloatArray, FloatArray, Flo
             doodle.position_m,
             doodle.orientation_xyzw,
         )
-    over_ground = stage.placed(position)[:, [0, 2]]
+    over_ground = scene.placed(position)[:, [0, 2]]
     return (
         time_s,
         gaussian_smoothed(over_ground, PATH_SIGMA_S * RATE_HZ),

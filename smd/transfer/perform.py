@@ -26,7 +26,7 @@ from smd.transfer.demands import demands
 from smd.transfer.facing import HEADINGS
 from smd.transfer.path import ground_path
 from smd.transfer.repertoire import Piece, Repertoire, repertoire
-from smd.transfer.stage import Stage, stage_for
+from smd.transfer.scene import SceneScale, scene_scale
 from smd.transfer.timeline import timeline
 
 RATE_HZ = 24.0
@@ -170,7 +170,7 @@ class Staged:
     Attributes
     ----------
     part : what it performs.
-    doodles : at stage scale.
+    doodles : at the scene's scale.
     pieces : what it can do.
     moves : one after the other, from the first frame to the last.
     idling : what it does in between.
@@ -196,10 +196,10 @@ def entrances(
 
     Parameters are those of `perform`.
     """
-    stage = stage_for(recording, cast.shared.character.height_m, score.figure_height_m)
+    scene = scene_scale(recording, cast.shared.character.height_m, score.figure_height_m)
     pieces = repertoires(score, cast, expressiveness)
     return [
-        enter(part, recording, stage, pieces[cast.of(part.device)], time_s, ahead, heading)
+        enter(part, recording, scene, pieces[cast.of(part.device)], time_s, ahead, heading)
         for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
     ]
 
@@ -218,7 +218,7 @@ def _heights_m(devices: Sequence[str], cast: Cast) -> list[float]:
 def enter(
     part: Part,
     recording: Recording,
-    stage: Stage,
+    scene: SceneScale,
     pieces: Repertoire,
     time_s: FloatArray,
     idling_ahead: float,
@@ -227,9 +227,9 @@ def enter(
     """Lay out what a performer does, ``idling_ahead`` of a cycle ahead in its idling."""
     clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
     spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    path = HEADINGS[heading](ground_path(recording.of(part.device), stage), spans, pieces)
+    path = HEADINGS[heading](ground_path(recording.of(part.device), scene), spans, pieces)
     moves = course(spans, path, pieces, clock_s=clock_s)
-    doodles = tuple(stage.placed_doodle(doodle) for doodle in recording.of(part.device))
+    doodles = tuple(scene.placed_doodle(doodle) for doodle in recording.of(part.device))
     idling = Idling(pieces.idle, pieces.idle.clip.rate_hz, clock_s)
     return Staged(part, doodles, pieces, moves, idling)
 

@@ -13,7 +13,7 @@ from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
 
 NOWHERE_M = 0.05
-"""A way on the stage that is no way: less than a foot shifts while standing."""
+"""A way in the scene that is no way: less than a foot shifts while standing."""
 
 SETTLING_S = 0.35
 """Time in which a gait gets going where its phrase begins, and comes to rest where it ends; never

@@ -18,7 +18,7 @@ from smd.doodle import Doodle, Recording
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
 from smd.transfer.repertoire import piece_of
-from smd.transfer.stage import stage_for
+from smd.transfer.scene import scene_scale
 
 RATE_HZ = 120.0
 
@@ -118,7 +118,7 @@ def test_a_jump_is_as_high_as_drawn_and_its_feet_fly_as_long_as_its_body(
     (actor,) = animate(score, recording, library, rate_hz=RATE_HZ).actors
     skeleton, clip = library.character.skeleton, library.clip(name)
     legs, hips = legs_of(skeleton, feet_of(clip)), skeleton.index("hips")
-    stage = stage_for(recording, library.character.height_m, score.figure_height_m)
+    stage = scene_scale(recording, library.character.height_m, score.figure_height_m)
     flown = piece(library, name).airborne
     first, last, body_m = flown.first, flown.last, flown.body_m
     flown_s = lasting_s * (last - first) / (len(clip) - 1)  # the clip lasts as long as the phrase

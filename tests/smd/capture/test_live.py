@@ -49,12 +49,12 @@ def test_phrases_are_the_streams_each_with_its_effort(recognizer):
         span for time_s, rows in frames_of(doodle) for span in stream.push(time_s, *split(rows))
     ]
     expected += stream.finish()
-    assert [each.span for each in decided] == expected
-    assert [each.span.action for each in decided] == ["punch", "bow"]
+    assert [each.detection for each in decided] == expected
+    assert [each.detection.action for each in decided] == ["punch", "bow"]
     motion = smooth(doodle)
     for each in decided:
         assert each.device == "left"
-        part = motion.between(each.span.start_s, each.span.end_s)
+        part = motion.between(each.detection.start_s, each.detection.end_s)
         alone = read_effort(part, load_effort_model())
         assert each.effort.time == pytest.approx(alone.time, abs=1e-6)
 
@@ -73,7 +73,7 @@ def test_a_mounted_tracker_is_heard_as_the_prop(recognizer):
         for pose, drawing in rows.values()
     ]
     live = LiveRecognition(recognizer, load_effort_model(), {"LHR-1": "left"}, mount)
-    assert [each.span.action for each in heard(live, turned)] == ["punch"]
+    assert [each.detection.action for each in heard(live, turned)] == ["punch"]
 
 
 def test_after_a_long_loss_a_doodle_begins_anew(recognizer):
@@ -83,7 +83,7 @@ def test_after_a_long_loss_a_doodle_begins_anew(recognizer):
     between = [(doodle.time_s[-1] + 0.5, {"LHR-1": (None, True)})]
     live = LiveRecognition(recognizer, load_effort_model(), {"LHR-1": "left"})
     decided = heard(live, [*frames, *between, *later])
-    assert [each.span.action for each in decided] == ["punch", "punch"]
+    assert [each.detection.action for each in decided] == ["punch", "punch"]
 
 
 def test_what_a_frame_does_not_say_is_not_made_up(tmp_path):
@@ -101,4 +101,6 @@ def test_a_bad_sample_is_passed_over(recognizer):
     frames = list(frames_of(played("punch")))
     bad = [(frames[50][0] + 1e-3, {"LHR-1": ((0.0,) * 7, True)})]  # no rotation
     live = LiveRecognition(recognizer, load_effort_model(), {"LHR-1": "left"})
-    assert [each.span.action for each in heard(live, frames[:51] + bad + frames[51:])] == ["punch"]
+    assert [each.detection.action for each in heard(live, frames[:51] + bad + frames[51:])] == [
+        "punch"
+    ]

@@ -13,8 +13,6 @@ from smd.recognition.languages import (
     holding_word,
     inner_word,
     nearest_words,
-    same_language,
-    shared_word,
     word_without,
 )
 from smd.recognition.pattern import Pattern, merged
@@ -42,6 +40,15 @@ def accepts(pattern, string):
 
 def inside(part, whole):
     return any(whole[i : i + len(part)] == part for i in range(len(whole) - len(part) + 1))
+
+
+def shared_word(a, b):
+    found = nearest_words(a, b, most=0)
+    return found.first if found else None
+
+
+def same_language(a, b):
+    return extra_word(a, b) is None and extra_word(b, a) is None
 
 
 def shortest(strings):

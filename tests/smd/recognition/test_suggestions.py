@@ -68,14 +68,14 @@ def kept_out(recognizer, actions, doodle: Doodle, name: str) -> str:
 def test_what_is_recognised_is_not_suggested(recognizer, actions):
     made = take(4, "walk", "punch", "bow")
     whole = understood(recognizer, made.doodle())
-    assert len(whole.spans) == 3
+    assert len(whole.detections) == 3
     assert suggestions(recognizer, actions, [whole]) == []
 
 
 def test_a_gesture_that_was_left_out_is_suggested_where_it_is(recognizer, actions):
     made = take(4, "walk", "punch", "bow")
     whole = understood(recognizer, made.doodle())
-    without = replace(whole, spans=[whole.spans[0], whole.spans[2]])
+    without = replace(whole, detections=[whole.detections[0], whole.detections[2]])
     (one,) = suggestions(recognizer, actions, [without])
     punch = made.phrases[1]
     assert one.start_s == pytest.approx(punch.start_s, abs=0.2)
@@ -130,7 +130,7 @@ def waving(seconds: float) -> Doodle:
 
 
 def test_movement_without_rest_is_cut_into_pieces_like_gestures(recognizer):
-    whole = replace(understood(recognizer, waving(20.0)), spans=())
+    whole = replace(understood(recognizer, waving(20.0)), detections=())
     found = list(stretches(whole))
     assert len(found) >= 20.0 / LONGEST_S
     for movement, (start_s, end_s) in found:
@@ -141,7 +141,7 @@ def test_movement_without_rest_is_cut_into_pieces_like_gestures(recognizer):
 
 
 def test_there_are_never_more_than_a_person_would_read(recognizer, actions):
-    whole = replace(understood(recognizer, waving(200.0)), spans=())
+    whole = replace(understood(recognizer, waving(200.0)), detections=())
     found = suggestions(recognizer, actions, [whole])
     assert len(found) <= MOST_SUGGESTED
 
@@ -149,6 +149,6 @@ def test_there_are_never_more_than_a_person_would_read(recognizer, actions):
 def test_without_examples_tokens_say_what_is_likely(actions):
     by_hand = [replace(action, exemplar=None) for action in actions]
     plain = Recognizer(by_hand)
-    whole = replace(understood(plain, take(4, "punch").doodle()), spans=())
+    whole = replace(understood(plain, take(4, "punch").doodle()), detections=())
     (one,) = suggestions(plain, by_hand, [whole])
     assert one.likeliest[0].action == "punch"

@@ -6,9 +6,9 @@ import pytest
 from smd.doodle import Doodle
 from smd.geometry.rotations import multiply, quaternion_about, rotate
 from smd.transfer.path import front_over_ground, ground_path
-from smd.transfer.stage import Stage
+from smd.transfer.scene import SceneScale
 
-STAGE = Stage(10.0, np.zeros(3))
+STAGE = SceneScale(10.0, np.zeros(3))
 UP, LEFT, AHEAD = [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
 
 

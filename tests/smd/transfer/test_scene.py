@@ -5,7 +5,7 @@ import pytest
 
 from smd.doodle import Doodle, Recording
 from smd.errors import TransferError
-from smd.transfer.stage import stage_for
+from smd.transfer.scene import scene_scale
 
 
 def doodle(device: str, start: tuple[float, float, float]) -> Doodle:
@@ -22,7 +22,7 @@ def recording() -> Recording:
 
 def test_places_are_ten_times_as_far_apart_and_times_and_turns_as_they_were():
     take = recording()
-    stage = stage_for(take, 1.75, 0.175)
+    stage = scene_scale(take, 1.75, 0.175)
     placed = stage.placed_doodle(take.doodles[0])
     assert np.diff(placed.position_m, axis=0) == pytest.approx(
         10.0 * np.diff(take.doodles[0].position_m, axis=0)
@@ -33,7 +33,7 @@ def test_places_are_ten_times_as_far_apart_and_times_and_turns_as_they_were():
 
 def test_performers_keep_their_places_beside_each_other_around_the_middle():
     take = recording()
-    stage = stage_for(take, 1.75, 0.175)
+    stage = scene_scale(take, 1.75, 0.175)
     fox, wolf = (stage.placed(d.position_m[0]) for d in take.doodles)
     assert wolf - fox == pytest.approx([-8.0, 1.0, 3.0])
     assert (fox + wolf)[[0, 2]] == pytest.approx([0.0, 0.0])
@@ -41,7 +41,7 @@ def test_performers_keep_their_places_beside_each_other_around_the_middle():
 
 def test_the_ground_is_the_lowest_point_that_any_device_reached():
     take = recording()
-    stage = stage_for(take, 1.75, 0.175)
+    stage = scene_scale(take, 1.75, 0.175)
     heights = [stage.placed(d.position_m)[:, 1].min() for d in take.doodles]
     assert min(heights) == pytest.approx(0.0)
 
@@ -49,4 +49,4 @@ def test_the_ground_is_the_lowest_point_that_any_device_reached():
 @pytest.mark.parametrize("height_m", [0.0, -1.0, float("nan")])
 def test_a_character_without_height_gives_no_scale(height_m):
     with pytest.raises(TransferError, match="character: expected a height above zero, found"):
-        stage_for(recording(), height_m, 0.175)
+        scene_scale(recording(), height_m, 0.175)

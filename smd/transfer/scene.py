@@ -1,4 +1,4 @@
-"""Stage: the table that was played on, as large as the character needs it."""
+"""SceneScale: the places that were played on, as large as the character needs them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from smd.geometry.arrays import FloatArray, frozen_array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stage(Frozen):
-    """Where a recording's places are on the stage.
+class SceneScale(Frozen):
+    """Where a recording's places are in the scene.
 
     Attributes
     ----------
-    scale : metres on the stage per metre of the recording.
-    origin_m : (3,) the place of the recording that is the stage's origin.
+    scale : metres in the scene per metre of the recording.
+    origin_m : (3,) the place of the recording that is the scene's origin.
     """
 
     scale: float
@@ -31,16 +31,18 @@ class Stage(Frozen):
         )
 
     def placed(self, position_m: FloatArray) -> FloatArray:
-        """Return where places ``(…, 3)`` of the recording are on the stage."""
+        """Return where places ``(…, 3)`` of the recording are in the scene."""
         return (position_m - self.origin_m) * self.scale
 
     def placed_doodle(self, doodle: Doodle) -> Doodle:
-        """Return a doodle as large as the stage; its times and turns stay."""
+        """Return a doodle as large as in the scene; its times and turns stay."""
         return replace(doodle, position_m=self.placed(doodle.position_m))
 
 
-def stage_for(recording: Recording, character_height_m: float, figure_height_m: float) -> Stage:
-    """Return the stage on which a figurine of the prop's size is the character.
+def scene_scale(
+    recording: Recording, character_height_m: float, figure_height_m: float
+) -> SceneScale:
+    """Return the scale at which a figurine of the prop's size is the character.
 
     Places scale, times do not. Over the ground, the origin is the middle of the devices' first
     places, so that performers keep their places beside each other; the ground is the lowest
@@ -58,4 +60,6 @@ def stage_for(recording: Recording, character_height_m: float, figure_height_m: 
     first = [recording.of(device)[0].position_m[0] for device in recording.devices]
     lowest = min(float(doodle.position_m[:, 1].min()) for doodle in recording.doodles)
     middle = np.mean(first, axis=0)
-    return Stage(character_height_m / figure_height_m, np.array([middle[0], lowest, middle[2]]))
+    return SceneScale(
+        character_height_m / figure_height_m, np.array([middle[0], lowest, middle[2]])
+    )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sklearn.naive_bayes import GaussianNB
 
-from laban.naive_bayes import fit_naive_bayes, fit_papers_method, relevance
+from benchmarks.papers_effort import fit_naive_bayes, fit_papers_method, relevance
 
 
 def examples(seed: int, n: int = 60, d: int = 7) -> tuple[np.ndarray, np.ndarray]:

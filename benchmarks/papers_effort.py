@@ -1,4 +1,6 @@
-"""Naive Bayes for two classes, and the relevance of a feature for separating them [1]_.
+"""The paper's method for Effort, to compare with: naive Bayes for two classes [1]_.
+
+It also computes the relevance of a feature for separating the classes.
 
 The two classes of an axis are its poles: *low* (sustained, light, …) and *high* (sudden,
 strong, …). Densities are multiplied in log space: 50 factors would underflow.
