@@ -1,9 +1,9 @@
 """The paper's method for Effort, to compare with: naive Bayes for two classes [1]_.
 
-It says how relevant a feature is to telling the classes apart, as well.
+It also computes the relevance of a feature for separating the classes.
 
 The two classes of an axis are its poles: *low* (sustained, light, …) and *high* (sudden,
-strong, …). Products of densities are sums of logarithms here: 50 factors would underflow.
+strong, …). Densities are multiplied in log space: 50 factors would underflow.
 
 References
 ----------
@@ -23,8 +23,8 @@ from laban.motion import FloatArray
 BoolArray = NDArray[np.bool_]
 
 VARIANCE_FLOOR = 1e-9
-"""Added to every variance, as a share of the largest feature's: a feature that is constant
-within a class would else decide alone. scikit-learn's default."""
+"""Added to every variance, as a share of the largest one: otherwise a feature that is constant
+within a class would decide alone. scikit-learn's default."""
 
 
 def relevance(features: FloatArray, high: BoolArray) -> FloatArray:
@@ -39,7 +39,7 @@ def relevance(features: FloatArray, high: BoolArray) -> FloatArray:
 
     Returns
     -------
-    ``(d,)`` not negative; 0 for a feature that is the same everywhere.
+    ``(d,)`` not negative; 0 for a constant feature.
     """
     share = np.array([np.mean(~high), np.mean(high)])[:, None]
     mean, variance = _moments(features, high)
@@ -56,7 +56,7 @@ class NaiveBayes:
     Attributes
     ----------
     mean, variance : (2, d), row 0 for the low class and row 1 for the high; variances positive.
-    prior_high : chance of the high class before anything is seen, in (0, 1).
+    prior_high : prior probability of the high class, in (0, 1).
     """
 
     mean: FloatArray
@@ -64,7 +64,7 @@ class NaiveBayes:
     prior_high: float
 
     def log_odds_terms(self, features: FloatArray) -> FloatArray:
-        """Return what each feature adds to the log odds of the high class, ``(…, d)``."""
+        """Return each feature's contribution to the log odds of the high class, ``(…, d)``."""
         spread = (features[..., None, :] - self.mean) ** 2 / self.variance + np.log(self.variance)
         return np.asarray(0.5 * (spread[..., 0, :] - spread[..., 1, :]))
 
@@ -74,7 +74,7 @@ class NaiveBayes:
 
     @property
     def prior_log_odds(self) -> float:
-        """The log odds of the high class before anything is seen."""
+        """The prior log odds of the high class."""
         return float(np.log(self.prior_high) - np.log1p(-self.prior_high))
 
     def only(self, columns: NDArray[np.int64]) -> NaiveBayes:
@@ -92,12 +92,12 @@ def fit_naive_bayes(features: FloatArray, high: BoolArray) -> NaiveBayes:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PapersMethod:
-    """The paper's classifier: naive Bayes of the features that tell best.
+    """The paper's classifier: naive Bayes of the most relevant features.
 
     Attributes
     ----------
-    columns : (m,) of the 50 features, the most relevant first.
-    bayes : of these.
+    columns : (m,) indices of the 50 features, the most relevant first.
+    bayes : classifier of these features.
     """
 
     columns: NDArray[np.int64]
@@ -111,7 +111,7 @@ class PapersMethod:
 def fit_papers_method(
     features: FloatArray, high: BoolArray, left_out: Sequence[BoolArray]
 ) -> PapersMethod:
-    """Rank features by `relevance`, take the best M, multiply their chances [1]_.
+    """Rank features by `relevance`, take the best M, multiply their probabilities [1]_.
 
     Parameters
     ----------
@@ -120,8 +120,8 @@ def fit_papers_method(
     high
         ``(n,)``, true for the high pole; both classes occur.
     left_out
-        Masks of takes. M is the one with the best accuracy on each of them when it is learned from
-        the rest, the fewest among equals.
+        Folds, as masks of takes. M has the best cross-validated accuracy; among equals it is the
+        smallest.
 
     References
     ----------

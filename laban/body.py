@@ -1,8 +1,8 @@
-"""Body: how fast a whole body moves, its turning counted in.
+"""Body: the speed of a whole body, including its rotation.
 
-A prop that is turned on the spot goes nowhere, yet is moved suddenly or with weight. So what tells
-these is measured of the body and not of its origin: the root mean square over its parts, which lie
-about a radius of gyration away.
+The origin of a prop that turns on the spot does not move, yet the movement may be sudden or strong.
+So speed and acceleration are those of the body and not of its origin: the root mean square over its
+parts, which lie about a radius of gyration away.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 from laban.motion import FloatArray, RigidMotion
 
 BODY_RADIUS_M = 0.1
-"""Radius of gyration, about a hand-held prop's: one radian then counts as 0.1 m."""
+"""Radius of gyration of a hand-held prop, roughly: one radian then counts as 0.1 m."""
 
 
 def body_rate(linear: FloatArray, angular: FloatArray) -> FloatArray:
@@ -21,8 +21,8 @@ def body_rate(linear: FloatArray, angular: FloatArray) -> FloatArray:
     Parameters
     ----------
     linear, angular
-        ``(n, 3)``: velocity and angular velocity, or both's first or second derivative. (Parts
-        are pulled inwards as well while a body turns; that is left out.)
+        ``(n, 3)``: velocity and angular velocity, or the first or second derivative of both.
+        (The centripetal acceleration of parts of a turning body is left out.)
     """
     return np.sqrt(_square(linear) + BODY_RADIUS_M**2 * _square(angular))
 

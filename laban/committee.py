@@ -1,15 +1,14 @@
-"""Committee: simple classifiers, each heard as far as it was right about people it had not met.
+"""Committee: simple classifiers, each weighted by its likelihood on held-out performers.
 
-Each member weighs entries that belong together (`laban.description.FAMILIES`), by logistic
-regression or by naive Bayes, and one weighs products of entries as well. Few takes cannot say which
-of them is right, and a choice among them would be luck; so each has a share in the log odds that
-falls with how unlikely it made what was meant, on performers left out (as in Bayesian model
-averaging [1]_). With many takes one member has it all. All are weighted sums, and so is the
-committee.
+Each member classifies by a family of entries (`laban.description.FAMILIES`), with logistic
+regression or naive Bayes; one uses products of entries as well. A few takes cannot show which
+member is best, and choosing one would be luck. So each has a share in the log odds that falls with
+its loss on held-out performers (as in Bayesian model averaging [1]_). With many takes one member
+has the whole share. All members are weighted sums, and so is the committee.
 
-How sure the sum may be is learned from the same held-out takes: log odds are multiplied by the one
-number that makes what was meant most likely ("temperature" [2]_), so that the sign, and with it the
-decision, stays.
+The committee is calibrated on the same held-out takes: its log odds are multiplied by the one
+number that maximizes the likelihood of the labels ("temperature" [2]_). The sign, and with it the
+decision, does not change.
 
 References
 ----------
@@ -36,25 +35,25 @@ BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.int64]
 
 MOST_FOLDS, FEW_TAKES = 12, 200
-"""Up to so many performers of so many takes each is left out alone; more in `GROUPS` groups."""
+"""With at most so many performers and so many takes, folds are performers; else `GROUPS` groups."""
 
 GROUPS = 5
 
 POWER = 0.25
-"""Of the likelihood in a member's share: takes of one person are not independent, and their number
-not their worth. `benchmarks.effort_committee` compares powers where takes are few."""
+"""Power of the likelihood in a member's share, below 1 because takes of one person are not
+independent. `benchmarks.effort_committee` compares powers where takes are few."""
 
 LEAST_SHARE = 0.01
-"""A member with a smaller share is not heard at all, so that a model stays small."""
+"""A member with a smaller share is dropped, so that a model stays small."""
 
 PRODUCTS_RIDGE = 10.0
-"""Of the member with hundreds of weights."""
+"""Ridge penalty of the member with hundreds of weights."""
 
 FACTORS = np.geomspace(0.02, 10.0, 125)
-"""What log odds may be multiplied by."""
+"""Temperatures that are tried: factors of the log odds."""
 
 ENTRY_NAMES: tuple[str, ...] = tuple(dict.fromkeys(n for names in FAMILIES.values() for n in names))
-"""The entries that any member looks at."""
+"""The entries that any member uses."""
 
 PAIRS: IntArray = np.array(
     [
@@ -64,21 +63,21 @@ PAIRS: IntArray = np.array(
     ],
     dtype=np.int64,
 )
-"""(p, 2) of the entries: the products, squares among them."""
+"""(p, 2) indices of entries whose products are used, squares among them."""
 
 COUNT = len(ENTRY_NAMES) + len(PAIRS)
-"""How many entries and products there are."""
+"""Number of entries and products."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Member:
-    """A way to learn from some of the entries and products.
+    """A classifier to be trained on some of the entries and products.
 
     Attributes
     ----------
-    columns : of entries and products.
-    fit : from ``(n, k)`` of these, and which takes are of the high pole.
-    least_takes : with fewer it is not asked.
+    columns : indices of entries and products.
+    fit : trains on ``(n, k)`` of these, and on which takes are of the high pole.
+    least_takes : with fewer takes the member is left out.
     """
 
     columns: IntArray
@@ -86,7 +85,7 @@ class Member:
     least_takes: int = 0
 
     def learned(self, seen: FloatArray, goal: FloatArray) -> Linear:
-        """Learn from the takes of either pole among ``(n, COUNT)``; of one pole, nothing."""
+        """Train on the takes of either pole among ``(n, COUNT)``; with one pole alone, not."""
         poles = goal != 0
         high = goal[poles] > 0
         if high.all() or not high.any():
@@ -115,12 +114,12 @@ MEMBERS: Mapping[str, Member] = MappingProxyType(_members())
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Committee:
-    """What the members come to together.
+    """The weighted sum of the members.
 
     Attributes
     ----------
-    classifier : of entries and products ``(COUNT,)``, calibrated.
-    shares : of each member that is heard, the largest first.
+    classifier : on entries and products ``(COUNT,)``, calibrated.
+    shares : by member, the largest first; dropped members are absent.
     """
 
     classifier: Linear
@@ -128,7 +127,7 @@ class Committee:
 
 
 def folds(performers: IntArray) -> list[BoolArray]:
-    """Return masks of takes to leave out together: performers, or groups of them."""
+    """Return the folds of cross-validation, as masks of takes: performers, or groups of them."""
     names = np.unique(performers)
     few = len(names) <= MOST_FOLDS and len(performers) <= FEW_TAKES
     groups = np.arange(len(names)) % (len(names) if few else GROUPS)
@@ -136,18 +135,18 @@ def folds(performers: IntArray) -> list[BoolArray]:
 
 
 def convened(seen: FloatArray, goal: FloatArray, whose: IntArray) -> Committee:
-    """Learn from takes: every member, its share, and how sure they may be together.
+    """Train every member, its share and the calibration of the whole.
 
     Parameters
     ----------
     seen
         ``(n, COUNT)`` entries and products.
     goal
-        ``(n,)``: -1 low pole, 1 high pole, 0 neither; takes of neither do not train, but count
-        half for each pole in what is likely: neutral movement then reads near 0 where poles are
-        easy to tell apart.
+        ``(n,)``: -1 low pole, 1 high pole, 0 neither. Takes of neither are not used in training,
+        but count half for each pole in the likelihood: so neutral movement reads near 0 where
+        poles are easy to tell apart.
     whose
-        ``(n,)`` of performers.
+        ``(n,)`` indices of performers.
     """
     out = folds(whose)
     odds, factors, losses = {}, {}, {}
@@ -174,10 +173,10 @@ def convened(seen: FloatArray, goal: FloatArray, whose: IntArray) -> Committee:
 
 
 def temperature(log_odds: FloatArray, goal: FloatArray) -> tuple[float, float]:
-    """Return what held-out log odds are to be multiplied by, and the loss that is left.
+    """Return the factor that calibrates held-out log odds, and the remaining loss.
 
-    The loss is minus the logarithm of the likelihood of what was meant. One more take of either
-    pole at even odds is counted with them (Laplace's rule).
+    The loss is the negative log likelihood of the labels. One more take of either pole at even
+    odds is counted with them (Laplace's rule).
     """
     odds = np.append(log_odds, [0.5, 0.5])
     high = 0.5 * (1.0 + np.append(goal, [1.0, -1.0]))
@@ -190,7 +189,7 @@ def temperature(log_odds: FloatArray, goal: FloatArray) -> tuple[float, float]:
 def held_out_odds(
     member: Member, seen: FloatArray, goal: FloatArray, out: list[BoolArray]
 ) -> FloatArray:
-    """Return a member's log odds of each take, its performer left out."""
+    """Return a member's held-out log odds: of each take, trained without its performer."""
     odds = np.zeros(len(goal))
     for asked in out:
         odds[asked] = member.learned(seen[~asked], goal[~asked]).log_odds(seen[asked])

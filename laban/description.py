@@ -1,8 +1,7 @@
-"""Description: everything that is measured of one movement, as one row of numbers.
+"""Description: the feature vector of one movement that Effort is read from.
 
-The 50 features of the paper as they are, their logarithms, and the qualities: what a reader of
-Effort may choose from. Classifiers learn from few takes which of it tells; `FAMILIES` are the
-choices that they are offered.
+It holds the 50 features of the paper as they are, their logarithms, and the qualities. With few
+takes a classifier can use only few entries; `FAMILIES` are the sets that classifiers are given.
 """
 
 from __future__ import annotations
@@ -31,8 +30,8 @@ FLOORS: Mapping[str, float] = MappingProxyType(
         "m^(1/2)/s^2": 0.2,
     }
 )
-"""Added before the logarithm, by unit: about what a component has at rest by a tracker whose noise
-is 1 mm and 0.5 degrees a sample (tests/smd/test_effort.py). Below, the tracker would be read."""
+"""Added before the logarithm, by unit: about the value of a component at rest, for a tracker whose
+noise is 1 mm and 0.5 degrees a sample (tests/smd/test_effort.py). Smaller values are noise."""
 
 LOGARITHMS: tuple[Feature, ...] = tuple(
     Feature(f"log_{f.name}", f"log {f.unit}", f"log ({f.formula} + {FLOORS[f.unit]:g})")
@@ -98,8 +97,8 @@ FAMILIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         ),
     }
 )
-"""Entries that belong together: few takes can only weigh few. *Everything* is all but what a
-tracker's noise decides."""
+"""Entries that belong together: few takes suffice for few weights only. *Everything* is all but
+the entries that a tracker's noise dominates."""
 
 MULTIPLIED: tuple[str, ...] = (
     *(
@@ -111,19 +110,19 @@ MULTIPLIED: tuple[str, ...] = (
     "log_acceleration_variation",
     "log_arrival",
 )
-"""Entries whose products, two at a time, are looked at where there are takes enough: how much speed
-is sudden depends on how far the movement goes."""
+"""Entries whose pairwise products are used if there are enough takes: which speed is sudden depends
+on how far the movement goes."""
 
 _FLOOR = np.array([FLOORS[feature.unit] for feature in FEATURES])
 
 
 def describe(motion: RigidMotion) -> FloatArray:
-    """Return the description of one span of movement, its still ends left out.
+    """Return the description of one span of movement, without its still ends.
 
     Parameters
     ----------
     motion
-        At least `laban.features.MIN_SAMPLES` samples. Where fewer of them move, all are used.
+        At least `laban.features.MIN_SAMPLES` samples. If fewer of them move, all are used.
 
     Returns
     -------

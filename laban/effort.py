@@ -14,7 +14,7 @@ class LabanError(ValueError):
 
 
 def _axis(low: str, high: str, *, steps: int) -> Mapping[str, Any]:
-    """Return what is known of an axis besides its name: words of its poles, steps to one."""
+    """Return an axis's metadata besides its name: words of its poles, steps to a pole."""
     return {"poles": (low, high), "steps": steps}
 
 
@@ -63,4 +63,4 @@ NEUTRAL = "neutral"
 EFFORT_STEPS: Mapping[str, int] = MappingProxyType(
     {axis.name: axis.metadata["steps"] for axis in fields(Effort)}
 )
-"""Steps from neutral to a pole in which an axis is played: what is nearer looks the same."""
+"""Steps from neutral to a pole in which an axis is played: smaller differences are not visible."""

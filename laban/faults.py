@@ -1,8 +1,8 @@
-"""What is wrong with a file: said where it is found, named at the door.
+"""Faults: errors in a file, raised where they are found and given the file's name at the door.
 
-Whoever reads a line, a row or a node knows the place and what belongs there, and raises a `Fault`.
-Which file that is only the door knows, the public function that was asked to read it: it is
-`naming` the file, in its own subsystem's error. Nothing between them carries the file's name.
+Code that reads a line, a row or a node knows the place and what it expected there, and raises a
+`Fault`. Only the door, the public function that was asked to read the file, knows its name: it is
+`naming` the file, in its own subsystem's error. No function between them passes the name along.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _Error = TypeVar("_Error", bound=Exception)
 
 
 class Fault(Exception):  # noqa: N818 -- not the error: that names the file
-    """Something wrong in a file whose name is not known here; a door makes it the user's error.
+    """An error in a file whose name is not known here; a door turns it into the user's error.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Fault(Exception):  # noqa: N818 -- not the error: that names the file
 
     @classmethod
     def saying(cls, place: str, what: str) -> Fault:
-        """Return the fault that somebody who knows of no file has put into words already."""
+        """Return a fault with a message that was worded already, by code that knows no file."""
         fault = cls(place, "", "")
         fault.what = printable(what)
         return fault
@@ -47,9 +47,9 @@ class Fault(Exception):  # noqa: N818 -- not the error: that names the file
         file
             As the user named it.
         error
-            Which one it is.
+            Type of the error.
         joint
-            Between file and place.
+            Text between file and place.
         """
         where = f"{file}{joint}{self.place}" if self.place else f"{file}"
         return error(f"{where}: {self.what}")
@@ -57,7 +57,7 @@ class Fault(Exception):  # noqa: N818 -- not the error: that names the file
 
 @contextmanager
 def naming(file: Path | str, error: type[Exception], joint: str = ": ") -> Iterator[None]:
-    """Turn a fault that is found within into an error that names the file, as `Fault.of` does."""
+    """Turn a fault raised within into an error that names the file, as `Fault.of` does."""
     try:
         yield
     except Fault as fault:
@@ -65,5 +65,5 @@ def naming(file: Path | str, error: type[Exception], joint: str = ": ") -> Itera
 
 
 def printable(text: str) -> str:
-    """Return text on one line, what cannot be shown as underscores."""
+    """Return text on one line, with underscores for characters that cannot be printed."""
     return "".join(c if c.isprintable() else "_" for c in text)

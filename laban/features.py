@@ -5,13 +5,13 @@ frame (left, up, front; linear and angular; speed, acceleration, jerk) and 7 of 
 world. `FEATURES` is the one table of them, in the order of the vector; ``python -m laban``
 prints it for the docs.
 
-How the paper is read where it leaves a choice:
+Where the paper leaves a choice:
 
-- A component's signal is its magnitude. The paper speaks of "local up speed"; the signed mean of
-  a stroke there and back is 0 whatever its quality, and its sign would tell up from down, which
-  is the action and not the Effort.
-- Euclidean acceleration and jerk are the lengths of those vectors. The derivative of the speed
-  would leave out the force that bends a path, and its signed mean is 0 from rest to rest. Torsion
+- A component's signal is its magnitude. The paper speaks of "local up speed". The signed mean of
+  a stroke there and back is 0 whatever its quality, and its sign distinguishes up from down, which
+  depends on the action and not the Effort.
+- Euclidean acceleration and jerk are the norms of those vectors. The derivative of the speed
+  would leave out the acceleration that bends a path, and its mean is 0 from rest to rest. Torsion
   and equi-affine acceleration are magnitudes too, so that a movement and its mirror image have
   the same features.
 
@@ -31,21 +31,21 @@ from laban.motion import FloatArray, RigidMotion
 from laban.steps import Steps, finished
 
 MIN_SAMPLES = 4
-"""Fewer samples than this have no standard deviation worth the name."""
+"""Fewer samples than this have no meaningful standard deviation."""
 
 SLOW_SHARE = 0.25
-"""Curvature is not asked for where the speed is below this share of the span's RMS speed.
+"""Curvature is undefined where the speed is below this share of the span's RMS speed.
 
 There the direction of the movement is noise: an error of acceleration enters curvature divided
-by the speed squared. Samples are left out by their speed alone and nothing is added to the
-denominator, so what is left is unbiased: a circle's mean is 1/r however it is timed.
+by the speed squared. Samples are excluded by their speed alone and nothing is added to the
+denominator, so the mean is unbiased: a circle's is 1/r for any timing.
 """
 
 SLOW_M_S = 0.02
-"""Nor where it is below this: a hand at rest trembles as fast, smoothed."""
+"""Nor is it defined below this speed, which is that of a smoothed hand at rest."""
 
 STRAIGHT_TURN_RAD = 0.1
-"""Torsion is not asked for where the path is straight: its curvature, kept up over the whole
+"""Torsion is undefined where the path is straight: where its curvature, continued over the whole
 length of the span, would turn it by less than this. A straight line lies in every plane."""
 
 EQUI_AFFINE_STEP_S = 1.0 / 30.0
@@ -114,9 +114,9 @@ FEATURE_NAMES: tuple[str, ...] = tuple(feature.name for feature in FEATURES)
 def effort_features(motion: RigidMotion) -> FloatArray:
     """Return the feature vector of one span of movement.
 
-    It does not change when the world is moved or turned. Means and standard deviations are over
-    time; those of curvature and torsion over the samples where these exist (`SLOW_SHARE`,
-    `SLOW_M_S`, `STRAIGHT_TURN_RAD`), and 0 where there are none, as for a straight line.
+    It is invariant when the world is moved or turned. Means and standard deviations are over
+    time; those of curvature and torsion over the samples where these are defined (`SLOW_SHARE`,
+    `SLOW_M_S`, `STRAIGHT_TURN_RAD`), and 0 without such samples, as for a straight line.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def features_in_steps(motion: RigidMotion) -> Steps[FloatArray]:
 
 
 def _mean_and_sd(signal: FloatArray) -> tuple[float, float]:
-    """Return mean and standard deviation; of nothing, both are 0."""
+    """Return mean and standard deviation; both are 0 for an empty signal."""
     return (float(signal.mean()), float(signal.std())) if len(signal) else (0.0, 0.0)
 
 
@@ -179,7 +179,7 @@ def _angular(motion: RigidMotion) -> FloatArray:
 
 
 def _path_signals(motion: RigidMotion) -> list[FloatArray]:
-    """Return the 7 signals of the path in the order of `SIGNALS`, each where it exists."""
+    """Return the 7 signals of the path in the order of `SIGNALS`, each where it is defined."""
     v, a, j = motion.velocity_m_s, motion.acceleration_m_s2, motion.jerk_m_s3
     speed = _length(v)
     v_cross_a = np.cross(v, a)

@@ -1,4 +1,4 @@
-"""JSON whose values know where they stand, so that each complaint can name the place."""
+"""JSON whose values know their place in the file, so that each error can name it."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def parse_json(data: bytes | str, *, keys_once: bool = False) -> Node:
     data
         Bytes of a file, or its text.
     keys_once
-        Refuse an object with a key twice, of which the last would win unseen.
+        Refuse an object with a duplicate key; else the last one silently wins.
 
     Raises
     ------
@@ -100,10 +100,10 @@ def shown(value: Any) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A JSON value that knows where it stands.
+    """A JSON value that knows its place in the file.
 
-    Each method returns the value as what it is named for, or raises a `Fault` with the place, what
-    was expected and what was found.
+    Each method returns the value as the type that it is named for, or raises a `Fault` with the
+    place, what was expected and what was found.
     """
 
     value: Any
@@ -114,7 +114,7 @@ class Node:
         return Fault(self.place, expected, found or shown(self.value))
 
     def members(self, needed: Iterable[str], spare: Iterable[str] = ()) -> dict[str, Node]:
-        """Return an object's members, all those needed and no unknown ones."""
+        """Return an object's members; needed ones must be there, unknown ones must not."""
         members = self.options()
         needed, known = tuple(needed), (*needed, *spare)
         for key in members:
@@ -128,7 +128,7 @@ class Node:
         return members
 
     def member(self, key: str) -> Node:
-        """Return a member of an object; what else the object has does not matter."""
+        """Return a member of an object, whatever its other members."""
         members = self._object()
         if key not in members:
             raise self._lack(key)

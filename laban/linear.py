@@ -1,7 +1,6 @@
 """Linear classifiers of standardized features, for two classes or several.
 
-Fitting logistic regression is scikit-learn's; what comes out is a few numbers that NumPy alone can
-use.
+scikit-learn fits the logistic regression; the result is a few numbers that NumPy alone can use.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from laban.motion import FloatArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Linear:
-    """Two classes, told apart by a weighted sum.
+    """A linear classifier of two classes.
 
     Attributes
     ----------
@@ -35,11 +34,11 @@ class Linear:
         return np.asarray(features @ self.weight + self.bias)
 
     def times(self, factor: float) -> Linear:
-        """Return the classifier whose log odds are so many times these."""
+        """Return the classifier whose log odds are these times a factor."""
         return Linear(factor * self.weight, factor * self.bias)
 
     def among(self, columns: NDArray[np.int64], count: int) -> Linear:
-        """Return the same classifier where its features are some of ``count``."""
+        """Return the same classifier on ``count`` features, of which its own are ``columns``."""
         weight = np.zeros(count)
         weight[columns] = self.weight
         return Linear(weight, self.bias)
@@ -59,11 +58,11 @@ class Softmax:
     bias: FloatArray
 
     def scores(self, features: FloatArray) -> FloatArray:
-        """Return the logarithm of each class's chance but for a common term, ``(…, k)``."""
+        """Return the log probability of each class, up to a common term, ``(…, k)``."""
         return np.asarray(features @ self.weight.T + self.bias)
 
     def chances(self, features: FloatArray) -> FloatArray:
-        """Return the chance of each class, ``(…, k)``, of features ``(…, m)``."""
+        """Return the probability of each class, ``(…, k)``, for features ``(…, m)``."""
         score = self.scores(features)
         share = np.exp(score - score.max(axis=-1, keepdims=True))
         return np.asarray(share / share.sum(axis=-1, keepdims=True))
@@ -71,7 +70,7 @@ class Softmax:
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
-    """Reckon with one thread of BLAS; afterwards it has as many as before.
+    """Compute with one thread of BLAS; afterwards it has as many as before.
 
     The products of a fit are small: more threads mostly wait for each other, the longer the
     busier the cores are.
@@ -104,8 +103,8 @@ def fit_softmax(features: FloatArray, labels: NDArray[np.int64], ridge: float = 
 def fit_shared_variance(features: FloatArray, high: NDArray[np.bool_]) -> Linear:
     """Fit Gaussian naive Bayes whose classes share their variances: a weighted sum too.
 
-    It is the mean of what the features say, not the sum, which would count what they say together
-    as many times. Neither class is taken to be more frequent.
+    It is the mean of the features' log odds, not the sum, which would count correlated evidence
+    several times. The prior is even.
     """
     low_mean, high_mean = features[~high].mean(axis=0), features[high].mean(axis=0)
     within = features - np.where(high[:, None], high_mean, low_mean)
@@ -116,7 +115,7 @@ def fit_shared_variance(features: FloatArray, high: NDArray[np.bool_]) -> Linear
 def _fitted(
     features: FloatArray, labels: NDArray[np.int64], solver: str, ridge: float
 ) -> tuple[Any, FloatArray]:
-    """Return scikit-learn's fit of standardized features, and what they were divided by."""
+    """Return scikit-learn's fit of standardized features, and the scale that divided them."""
     from sklearn.linear_model import LogisticRegression
 
     scale = features.std(axis=0) + 1e-9

@@ -1,7 +1,7 @@
-"""EffortModel: what was learned, and reading with it.
+"""EffortModel: a trained model, and reading Effort with it.
 
-A model is small and frozen. Learning is in `laban.training`, the file in `laban.model_file`; this
-module needs NumPy alone and is what live code loads.
+A model is small and frozen. Training is in `laban.training`, the file in `laban.model_file`. This
+module needs NumPy alone, and is the one that live code loads.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from laban.steps import Steps, finished
 from laban.stillness import is_readable
 
 STATE_AXES = ("time", "weight")
-"""The axes whose poles are told together as well: the two that the paper plays."""
+"""The axes whose poles are classified jointly as well: the two of the paper."""
 
 STATES = ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0))
-"""The joint states of `STATE_AXES` that a model tells as one decision."""
+"""The joint states of `STATE_AXES`, which a model classifies in one decision."""
 
 
 def state_words(state: tuple[float, float]) -> tuple[str, str]:
@@ -36,12 +36,12 @@ def state_words(state: tuple[float, float]) -> tuple[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """What an axis was learned from.
+    """The training data of an axis.
 
     Attributes
     ----------
-    examples : takes of the low pole, neither and the high pole.
-    performers : how many people they come from.
+    examples : number of takes of the low pole, neither and the high pole.
+    performers : number of people they come from.
     """
 
     examples: tuple[int, int, int]
@@ -55,10 +55,10 @@ class EffortModel(Frozen):
     Attributes
     ----------
     axes : by name, those of `laban.AXES` that were trained; at least one.
-    alone : where nothing else is known of the performer.
-    own : where takes of the performer are known.
-    trained_on : what the examples were, for people.
-    seed : of the examples, where they were simulated.
+    alone : the reader for an unknown performer.
+    own : the reader for a performer some of whose takes are known.
+    trained_on : a description of the training data, for people to read.
+    seed : of the training data, if they were simulated.
     """
 
     axes: Mapping[str, Taught]
@@ -74,15 +74,15 @@ class EffortModel(Frozen):
         object.__setattr__(self, "axes", MappingProxyType(in_order))
 
     def reader(self, own: OwnMeasure | None) -> Reader:
-        """Return the reader for somebody whose own takes are known, or are not."""
+        """Return the reader for a performer whose own measure is given, or is None."""
         return self.alone if own is None else self.own
 
 
 def read_effort(motion: RigidMotion, model: EffortModel, own: OwnMeasure | None = None) -> Effort:
     """Return the Effort of one span of movement.
 
-    Axes that the model was not trained for are None. All are where there is nothing to read: in
-    fewer than `laban.features.MIN_SAMPLES` samples, and in a body at rest.
+    Axes that the model was not trained for are None. All are None if there is nothing to read:
+    fewer than `laban.features.MIN_SAMPLES` samples, or a body at rest.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def read_effort(motion: RigidMotion, model: EffortModel, own: OwnMeasure | None 
     model
         A trained one.
     own
-        How the performer moves anyway, from a few takes (`laban.own.own_measure`).
+        The performer's usual description, from a few takes (`laban.own.own_measure`).
     """
     return finished(read_in_steps(motion, model, own))
 
@@ -117,9 +117,9 @@ def effort_of(description: FloatArray, model: EffortModel, own: OwnMeasure | Non
 def read_state(
     motion: RigidMotion, model: EffortModel, own: OwnMeasure | None = None
 ) -> tuple[str, str, float] | None:
-    """Return the words of the likeliest joint state of Time and Weight, and its chance.
+    """Return the words of the likeliest joint state of Time and Weight, and its probability.
 
-    None where the model does not know joint states, or there is nothing to read.
+    None if the model was not trained on joint states, or there is nothing to read.
     """
     if not is_readable(motion):
         return None
@@ -129,7 +129,7 @@ def read_state(
 def state_of(
     description: FloatArray, model: EffortModel, own: OwnMeasure | None = None
 ) -> tuple[str, str, float] | None:
-    """Return the joint state of a description ``(132,)``; None where the model knows none."""
+    """Return the joint state of a description ``(132,)``; None if the model has none."""
     chances = model.reader(own).chances(description, own)
     if chances is None:
         return None
@@ -138,5 +138,5 @@ def state_of(
 
 
 def confidence(value: float) -> float:
-    """Return the chance of the pole that a reading leans to, in [0.5, 1]."""
+    """Return the probability of the likelier pole of a reading, in [0.5, 1]."""
     return 0.5 * (1.0 + abs(value))

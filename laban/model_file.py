@@ -1,8 +1,8 @@
 """The file of an `EffortModel`: JSON that a person can read, one entry a line.
 
-It has two readers, each a list of entries of a description and of products of them, with what
-they weigh on each axis. A file says which entries it uses by name, and one that this version does
-not know is refused.
+It has two readers. Each is a list of entries of a description and of products of them, with their
+weights on each axis. A file names the entries it uses; one that this version does not know is
+refused.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def load_effort_model(path: Path | str | None = None) -> EffortModel:
 
 @cache
 def _shipped() -> EffortModel:
-    """Read the shipped model; nothing of it changes, so all may share it."""
+    """Read the shipped model; it is immutable, so all may share it."""
     from importlib.resources import files
 
     text = (files("laban") / "models" / "default.json").read_text(encoding="utf-8")
@@ -230,7 +230,7 @@ def _members_from(node: Node) -> Mapping[str, float]:
 def _entries_from(
     listed: list[Node], products: list[Node], size_spread: float, *, own: bool
 ) -> Entries:
-    """Return which entries of a description a reader looks at, and which products of them."""
+    """Return the entries of a description that a reader uses, and their products."""
     named = [one.member("name") for one in listed]
     names = [node.text() for node in named]
     for i, (node, name) in enumerate(zip(named, names, strict=True)):

@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 class RigidMotion(Frozen):
     """A rigid body's pose at even times, and three derivatives of it.
 
-    The derivatives are given, not made here: whoever knows the sensor knows its noise
+    The caller provides the derivatives, because estimating them depends on the sensor's noise
     (a doodle's come from `smd.smooth`, a robot's from its controller).
 
     Attributes

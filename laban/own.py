@@ -1,8 +1,7 @@
-"""OwnMeasure: how somebody moves anyway, which their Effort is read against.
+"""OwnMeasure: a performer's usual description, relative to which their Effort is read.
 
-On real people speed orders one person's sudden and sustained takes nearly always right; what
-differs is where each person's middle lies. A few takes of the same person, with no word on what
-was meant, show it.
+On real people speed separates one person's sudden and sustained takes almost perfectly, but the
+threshold differs from person to person. A few unlabelled takes of the same person show it.
 """
 
 from __future__ import annotations
@@ -18,10 +17,10 @@ from laban.motion import FloatArray, RigidMotion
 from laban.stillness import is_readable
 
 PRIOR_TAKES = 2.0
-"""How many takes of a typical person count beside somebody's own."""
+"""Number of takes of a typical person that are averaged with a performer's own."""
 
 FEWEST_TAKES = 3
-"""Of somebody, to read them against: fewer show what was played, not how they play."""
+"""Takes that a measure needs: fewer show what was played, not how the performer plays."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,14 +30,14 @@ class OwnMeasure:
     Attributes
     ----------
     mean : (132,), in the order of `laban.description.DESCRIPTION`.
-    takes : how many it is of.
+    takes : number of takes in the mean.
     """
 
     mean: FloatArray
     takes: int
 
     def beside(self, typical: FloatArray) -> FloatArray:
-        """Return what to read against ``(132,)``: the own mean and a few takes of anybody's."""
+        """Return the reference ``(132,)``: the mean of the own and a few typical takes."""
         whole = self.takes * self.mean + PRIOR_TAKES * typical
         return np.asarray(whole / (self.takes + PRIOR_TAKES))
 
@@ -50,8 +49,8 @@ class OwnMeasure:
 def own_measure(motions: Iterable[RigidMotion]) -> OwnMeasure | None:
     """Return the measure of a performer from takes, or None if there are too few of them.
 
-    Takes with too little movement to read do not count. What was meant by them is not asked; they
-    had better be various.
+    Takes with too little movement to read do not count. The takes need no labels, but should be
+    varied.
     """
     return measure_of(np.array([describe(motion) for motion in motions if is_readable(motion)]))
 

@@ -1,9 +1,9 @@
-"""What the 50 features leave out: sizes, the geometry of the path, its smoothness and rhythm.
+"""Qualities, which the 50 features lack: sizes, the path's geometry, its smoothness and rhythm.
 
-Space is geometry (is the path straight, round, flat, longer than its reach?), Flow is how
-turning and going share a movement and how smoothly it goes on, and Time and Weight are told
-from another person's better where speed is seen beside the movement's own size. What is positive
-and spans magnitudes is a logarithm, with a floor below which it is not told apart.
+Space is geometry (is the path straight, round, flat, longer than its reach?). Flow is the
+proportion of rotation and translation, and the smoothness. Time and Weight generalize better to
+other people if speed is taken relative to the movement's own size. Positive quantities that span
+orders of magnitude are logarithms, with a floor for what is noise.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from laban.motion import FloatArray, RigidMotion
 from laban.steps import Steps, finished
 
 SPECTRUM_HZ, SPECTRUM_SHARE = 10.0, 0.05
-"""The speed's spectrum is followed up to this rate, while it is above this share of its peak."""
+"""The speed's spectrum is used up to this frequency, while it is above this share of its peak."""
 
 SUBMOVEMENT_SHARE = 0.2
 """A peak of the speed counts as a submovement above this share of the highest."""
@@ -33,16 +33,16 @@ peaks of its own.
 """
 
 REST_M_S2 = 0.3
-"""Nearly twice the body acceleration, averaged over `CHORD_S`, that a body has at rest by a tracker
+"""Nearly twice the body acceleration of a body at rest, averaged over `CHORD_S`, for a tracker
 whose noise is 1 mm and 0.5 degrees a sample (tests/smd/test_effort.py). It is added in quadrature,
-as noise adds: what is far below it is not told apart.
+as noise adds, so accelerations far below it cannot be told apart.
 """
 
 MOVING_SHARE, MOVING_M_S = 0.1, 0.02
 """A chord has a direction above this share of the chords' RMS speed, and above this speed."""
 
 PEAK_POWER = 8
-"""Of the speed, in the weights of the time of its peak: half as fast counts for next to nothing."""
+"""Power of the speed in the weights of the time of its peak: half the speed has hardly a weight."""
 
 ARRIVAL_S = 0.25
 """How long a movement takes to arrive."""
@@ -89,7 +89,7 @@ all RMS over its parts: s^2 = ‖v‖^2 + (0.1 m)^2 ‖ω‖^2; s' of means over
 def movement_qualities(motion: RigidMotion) -> FloatArray:
     """Return the qualities of one span of movement.
 
-    They do not change when the world is moved or turned.
+    They are invariant when the world is moved or turned.
 
     Parameters
     ----------
@@ -207,10 +207,10 @@ def _of_speed(motion: RigidMotion, speed: FloatArray) -> Steps[dict[str, float]]
 
 
 def _turning_rad(position: FloatArray, step_s: float) -> float:
-    """Return by how much a path turns, as its chords over `CHORD_S` do.
+    """Return the total turning of a path, measured between its chords over `CHORD_S`.
 
-    All chords are compared with the ones that begin where they end; where either is too short to
-    have a direction nothing turns.
+    Every chord is compared with the one that begins where it ends. If either is too short to have
+    a direction, the pair counts 0.
     """
     k = max(round(CHORD_S / step_s), 1)
     if len(position) <= 2 * k:
@@ -237,7 +237,7 @@ def _time_to_peak(speed: FloatArray) -> float:
 
 
 def _averaged(signal: FloatArray, reach: int) -> FloatArray:
-    """Return the mean over ``reach`` samples to either side; without the ends that lack them.
+    """Return the moving average over ``reach`` samples to either side, without incomplete ends.
 
     ``signal (n,)`` or ``(n, k)``; a short one is returned as it is.
     """
@@ -249,7 +249,7 @@ def _averaged(signal: FloatArray, reach: int) -> FloatArray:
 
 
 def _percentile(in_order: FloatArray, share: float) -> float:
-    """Return a percentile of a sorted signal, between samples on a line."""
+    """Return a percentile of a sorted signal, interpolated linearly."""
     place = share * (len(in_order) - 1)
     before = min(int(place), len(in_order) - 2)
     return float(in_order[before] + (place - before) * (in_order[before + 1] - in_order[before]))

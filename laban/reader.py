@@ -1,4 +1,4 @@
-"""Reader: entries of a description, and products of some, weighed to tell the poles apart."""
+"""Reader: classifies the poles by weights on entries of a description and on products of some."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from laban.size import Sizes, resized
 from laban.steps import Steps, finished
 
 SUREST = 0.995
-"""No reading is surer than this: so much has not been tried."""
+"""Largest probability of a reading: more would need more training data."""
 
 FADING = 2.0
-"""Power of the distance by which a reading falls where nothing was learned."""
+"""Power of the distance by which a reading falls outside of the training data."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Entries:
-    """Which entries of a description are looked at, and how.
+    """The entries of a description that are used, and how they are standardized.
 
     Attributes
     ----------
-    columns : (m,) of the description, at least one, none twice.
-    lowest, highest : (m,) what training has shown; beyond, a value counts as the end.
-    centre, scale : (m,) what is taken off a value, and what the rest is divided by.
-    pairs : (p, 2) of the m: whose products are looked at as well.
-    unlike : (m, m) lower triangular: times this, standardized values of takes as they were
-        learned from are independent and of variance 1 (half of their covariance taken as diagonal).
-    sizes : at which movements are looked at.
-    typical : (m,) of a person who is not known; None where values are not read against anybody.
+    columns : (m,) indices into the description, at least one, none twice.
+    lowest, highest : (m,) range of the training data; values beyond are clipped.
+    centre, scale : (m,) subtracted from a value, then the divisor.
+    pairs : (p, 2) indices of the m, whose products are used as well.
+    unlike : (m, m) lower triangular whitening matrix: it makes standardized values of the training
+        takes independent and of variance 1 (half of their covariance taken as diagonal).
+    sizes : of the training movements; a movement is brought to one of them.
+    typical : (m,) values of a typical person; None if values are not relative to a performer.
     """
 
     columns: NDArray[np.int64]
@@ -52,7 +52,7 @@ class Entries:
     def values(self, description: FloatArray, own: OwnMeasure | None = None) -> FloatArray:
         """Return the entries ``(m,)`` of a description, or ``(n, m)`` of n, at the usual size.
 
-        They are read against somebody's own takes if these entries are so.
+        They are relative to the performer's own takes if `typical` is given.
         """
         return finished(self.values_in_steps(description, own))
 
@@ -71,7 +71,7 @@ class Entries:
         return values[..., self.columns] - OwnMeasure(mean, own.takes).beside(self.typical)
 
     def distance(self, values: FloatArray) -> FloatArray:
-        """Return how unlike what training has shown values ``(…, m)`` are: Mahalanobis, RMS."""
+        """Return the Mahalanobis distance (RMS) of values ``(…, m)`` from the training data."""
         apart = ((values - self.centre) / self.scale) @ self.unlike
         return np.asarray(np.sqrt(np.mean(apart**2, axis=-1)))
 
@@ -89,9 +89,8 @@ class AxisReader:
     Attributes
     ----------
     classifier : its log odds are calibrated.
-    members : share of each member of the committee that it is made of (`laban.committee`).
-    held_out_accuracy : share of takes whose pole was told by a reader that had not seen the
-        performer.
+    members : share of each member of its committee (`laban.committee`).
+    held_out_accuracy : accuracy on takes of performers that were left out of training.
     """
 
     classifier: Linear
@@ -106,7 +105,7 @@ class StateReader:
     Attributes
     ----------
     classifier : of the states.
-    held_out_accuracy : share of takes whose state was told without having seen the performer.
+    held_out_accuracy : accuracy on takes of performers that were left out of training.
     """
 
     classifier: Softmax
@@ -115,14 +114,14 @@ class StateReader:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reader:
-    """How Effort is read, of performers who are not known, or against their own takes.
+    """How Effort is read, of unknown performers or relative to their own takes.
 
     Attributes
     ----------
-    entries : what is looked at.
+    entries : the input.
     axes : by name.
-    reach : the distance (`Entries.distance`) to which people who were left out came, 19 of 20.
-    states : of Time and Weight together; None where too few takes had a pole on both.
+    reach : the distance (`Entries.distance`) that holds 19 of 20 held-out takes.
+    states : of Time and Weight together; None if too few takes had a pole on both.
     """
 
     entries: Entries
@@ -150,15 +149,15 @@ class Reader:
         )
 
     def known(self, values: FloatArray) -> float:
-        """Return how far values ``(m,)`` are of a kind that was learned from, in (0, 1].
+        """Return the probability that values ``(m,)`` are of a kind in the training data, (0, 1].
 
-        A movement of that kind is read as it was learned; of another, nothing is known, and either
+        A movement of that kind is read as trained. Of any other kind nothing is known, and either
         pole is as likely.
         """
         return float(known_at(self.entries.distance(values), self.reach))
 
     def chances(self, description: FloatArray, own: OwnMeasure | None = None) -> FloatArray | None:
-        """Return the chance of each joint state ``(4,)``; None where none are known."""
+        """Return the probability of each joint state ``(4,)``; None if none were trained."""
         if self.states is None:
             return None
         values = self.entries.values(description, own)
@@ -168,10 +167,10 @@ class Reader:
 
 
 def known_at(distance: FloatArray, reach: float) -> FloatArray:
-    """Return how far what lies at a distance is of a kind that was learned from."""
+    """Return the probability that a movement at a distance is of a kind in the training data."""
     return np.asarray((reach / np.maximum(distance, reach)) ** FADING)
 
 
 def reading_of(log_odds: float) -> float:
-    """Return the reading of calibrated log odds: twice the chance of the high pole, less 1."""
+    """Return the reading of calibrated log odds: 2 p - 1, p the probability of the high pole."""
     return min(max(math.tanh(0.5 * log_odds), -SUREST), SUREST)

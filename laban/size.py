@@ -1,15 +1,15 @@
-"""Size: a movement that is larger than any that was learned from is read at a size that was.
+"""Size: a movement outside of the range of training sizes is read at a size within.
 
-A VR hand goes six times as far as a hand that guides a robot, and does not mean more by it. How
-large a movement is beside those that were learned from shows in all of its entries together: the
-factor that makes it most like them (generalised least squares, the entries' covariance half
-diagonal). Within the usual spread a size is kept, since the strong go further than the light; one
-far beyond says nothing, and is read as the usual one.
+A VR hand travels six times as far as a hand that guides a robot, without meaning more by it. The
+size of a movement relative to the training movements is estimated from all of its entries: it is
+the factor that makes it most like them (generalised least squares, the entries' covariance half
+diagonal). Within the usual range a size is kept, since strong movements go further than light
+ones. One far beyond carries no information, and is replaced by the usual one.
 
 References
 ----------
-.. [1] P. J. Huber, E. M. Ronchetti, "Robust Statistics", 2nd edition, 2009, section 4.8 (why what
-   lies far out is to count for nothing: redescending).
+.. [1] P. J. Huber, E. M. Ronchetti, "Robust Statistics", 2nd edition, 2009, section 4.8
+   (redescending estimators: why far outliers should not count).
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from laban.qualities import REST_M_S2
 from laban.steps import Steps, finished
 
 ROUNDS = 3
-"""How often a size is found anew after a movement was brought to the one before: entries of whole
-bodies, whose turning has no size, do not grow in proportion."""
+"""Iterations of the size estimate, each from the movement resized by the one before: entries of
+whole bodies do not grow in proportion, because turning has no size."""
 
 LARGEST = 2.5
-"""No logarithm of a size is beyond this, a factor of twelve: further out is no movement."""
+"""Bound of the logarithm of a size, a factor of twelve: further out is no movement."""
 
 USUAL_SPREADS = 2.0
-"""Sizes are kept up to about so many standard deviations of those that were learned from."""
+"""Sizes are kept up to about so many standard deviations of the training sizes."""
 
 DIAGONAL = 0.5
-"""Share of the diagonal in the covariance: takes may be hardly more than entries."""
+"""Share of the diagonal in the covariance (shrinkage): there may be few more takes than entries."""
 
 _POWERS = {"m": 1.0, "1/m": -1.0, "m^(1/2)": 0.5}
 _GROWS = np.array(
@@ -56,17 +56,17 @@ _TINY = 1e-12
 
 
 def resized(description: FloatArray, log_factor: FloatArray | float) -> FloatArray:
-    """Return what `describe` would say of a movement if its way were larger, its turning the same.
+    """Return the description of a movement whose path is scaled and whose rotation is the same.
 
     Parameters
     ----------
     description
         ``(…, 132)``.
     log_factor
-        ``(…)``, logarithm of how many times as large.
+        ``(…)``, logarithm of the scale factor.
 
-    What a threshold in metres decides (which chords have a direction, where curvature exists) is
-    taken to stay, and so are the shares of going and turning in a body's acceleration.
+    Decisions by thresholds in metres (which chords have a direction, where curvature is defined)
+    are assumed to stay, and so are the shares of translation and rotation in a body's acceleration.
     """
     log_factor = np.asarray(log_factor)
     square = np.exp(2.0 * log_factor)[..., None]
@@ -115,13 +115,13 @@ def resized(description: FloatArray, log_factor: FloatArray | float) -> FloatArr
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sizes:
-    """How large movements are that were learned from.
+    """The sizes of the training movements.
 
     Attributes
     ----------
-    columns : (m,) of the description that show it.
-    centre : (m,) of these, of a movement of the usual size.
-    weight : (m,) of what differs from that in the logarithm of a size.
+    columns : (m,) indices of the entries that show the size.
+    centre : (m,) values of these for a movement of the usual size.
+    weight : (m,) weights of the differences from the centre in the logarithm of a size.
     spread : standard deviation of these logarithms, positive.
     """
 
@@ -131,7 +131,7 @@ class Sizes:
     spread: float
 
     def of(self, description: FloatArray) -> FloatArray:
-        """Return the logarithm of how many times as large as usual: ``(…, 132)`` to ``(…)``."""
+        """Return the logarithm of the size over the usual one: ``(…, 132)`` to ``(…)``."""
         return finished(self.in_steps(description))
 
     def in_steps(self, description: FloatArray) -> Steps[FloatArray]:
@@ -147,12 +147,12 @@ class Sizes:
         return np.asarray(size)
 
     def beyond(self, size: FloatArray) -> FloatArray:
-        """Return how much of the logarithm of a size is beyond the usual, and is not to count."""
+        """Return the part of the logarithm of a size that is beyond the usual, to be removed."""
         return np.asarray(size - size / (1.0 + (size / (USUAL_SPREADS * self.spread)) ** 4))
 
 
 def sizes_of(descriptions: FloatArray, columns: NDArray[np.int64]) -> Sizes:
-    """Learn from descriptions ``(n, 132)`` how large movements are."""
+    """Estimate the distribution of sizes from descriptions ``(n, 132)``."""
     seen = descriptions[:, columns]
     centre, scale = seen.mean(axis=0), seen.std(axis=0) + 1e-9
     standard = (seen - centre) / scale
@@ -166,7 +166,7 @@ def sizes_of(descriptions: FloatArray, columns: NDArray[np.int64]) -> Sizes:
 
 
 def _larger() -> FloatArray:
-    """Return by how much each entry grows with the logarithm of the size of what only goes."""
+    """Return each entry's derivative by the logarithm of the size, for pure translation."""
     grows = dict(zip(DESCRIPTION_NAMES, [0.0] * len(FEATURES) + _GROWS.tolist(), strict=False))
     of_size = ("path", "extent", "peak_speed", "rms_speed", "peak_acceleration", "rms_acceleration")
     grows |= {f"log_{name}": 1.0 for name in of_size}

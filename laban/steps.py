@@ -1,4 +1,4 @@
-"""Steps: long work in short pieces, so that what comes live is not kept waiting."""
+"""Steps: long work in short pieces, so that live input does not wait."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Steps: TypeAlias = Generator[None, None, T]
 
 
 def finished(steps: Steps[T]) -> T:
-    """Do all that is left of some work, and return its result."""
+    """Run the remaining steps of some work, and return its result."""
     while True:
         try:
             next(steps)

@@ -11,16 +11,16 @@ from laban.features import MIN_SAMPLES, SLOW_M_S
 from laban.motion import RigidMotion
 
 STILL_SHARE = 0.05
-"""Slower than this share of its quick moments (the 95th percentile), a body has not set out."""
+"""Below this share of its quick moments' speed (the 95th percentile) a body is still."""
 
 STILL_M_S = 0.005
-"""Nor at or below this speed, whatever the rest is like."""
+"""At or below this speed a body is still in any case."""
 
 REST_RAD_S = 0.1
 """A body that turns no faster and moves no faster than `SLOW_M_S` (RMS) is at rest."""
 
 REST_S = 0.4
-"""So long a rest parts two movements; within one, a hand that is held back stops for less."""
+"""Length of a rest that separates two movements; stops within a movement are shorter."""
 
 
 def is_readable(motion: RigidMotion) -> bool:
@@ -36,10 +36,10 @@ def is_still(motion: RigidMotion) -> bool:
 
 
 def without_still_ends(motion: RigidMotion) -> RigidMotion:
-    """Return a movement from where it sets out to where it arrives.
+    """Return a movement without the stillness before and after it.
 
-    A second of stillness at either end would halve every mean of a short gesture. What is still
-    in between stays: pauses are part of how somebody moves. A body that never moves is returned
+    A second of stillness at either end would halve every mean of a short gesture. Stillness in
+    between stays: pauses are part of how somebody moves. A body that never moves is returned
     as it is.
     """
     if not len(motion):
@@ -55,7 +55,7 @@ def without_still_ends(motion: RigidMotion) -> RigidMotion:
 def movements(motion: RigidMotion) -> list[RigidMotion]:
     """Return the movements between rests: where a body is at rest for `REST_S` or longer.
 
-    None are empty; of a body that never moves there is none.
+    None is empty; a body that never moves has none.
     """
     if len(motion) < MIN_SAMPLES:
         return []

@@ -1,9 +1,9 @@
 """Training: from labelled descriptions to an `EffortModel`.
 
-Twice, for people who are not known and for people whose own measure is: per axis a committee
-(`laban.committee`) learns, and the joint states of Time and Weight are learned beside. For the
-accuracy that is reported all of that is done once more for each performer without any take of
-theirs.
+There are two readers: for unknown performers, and for performers whose own measure is known. For
+each, a committee per axis (`laban.committee`) and a classifier of the joint states of Time and
+Weight are trained. The reported accuracy is cross-validated: all of that is repeated for each
+performer without any take of theirs.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ from laban.size import DIAGONAL, Sizes, resized, sizes_of
 IntArray = NDArray[np.int64]
 
 FEWEST_PERFORMERS = 3
-"""Of each pole: leaving one out to judge and one to choose leaves one to learn from."""
+"""Performers of each pole: with one left out to test and one to choose, one is left to train on."""
 
 SIGNIFICANT_DIGITS = 6
-"""Of a model's numbers: far finer than any measurement, short enough to read."""
+"""Digits of a model's numbers: far finer than any measurement, short enough to read."""
 
 MOST_SPREADS = 3.0
-"""Values count up to so many standard deviations from the mean: products would go on growing."""
+"""Values are clipped at so many standard deviations from the mean, since products would grow on."""
 
 REACHED = 0.95
-"""Share of the takes of people who were left out that is within a reader's reach."""
+"""Share of held-out takes that is within a reader's reach."""
 
 STATES_RIDGE = 10.0
-"""Of the joint states' own weights."""
+"""Ridge penalty of the joint states' own weights."""
 
 _COLUMNS = np.array([DESCRIPTION_NAMES.index(name) for name in ENTRY_NAMES], dtype=np.int64)
 
@@ -49,17 +49,17 @@ _OF_STATES = np.concatenate(
         np.arange(len(ENTRY_NAMES), COUNT),
     ]
 )
-"""What the joint states are read from."""
+"""Input of the classifier of joint states."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxisReport:
-    """How well one axis is told on performers that were left out.
+    """Cross-validated readings of one axis, on performers left out of training.
 
     Attributes
     ----------
-    reading : (n,) of each labelled take, by a reader that had not seen its performer.
-    meant : (n,) -1 low pole, 1 high pole, 0 neither.
+    reading : (n,) of each labelled take, by a reader trained without its performer.
+    meant : (n,) labels: -1 low pole, 1 high pole, 0 neither.
     """
 
     reading: FloatArray
@@ -67,26 +67,26 @@ class AxisReport:
 
     @property
     def accuracy(self) -> float:
-        """Share of the takes of a pole whose reading has the pole's sign."""
+        """Share of the takes labelled with a pole whose reading has the pole's sign."""
         at_pole = self.meant != 0
         return float(np.mean((self.reading[at_pole] > 0) == (self.meant[at_pole] > 0)))
 
     @property
     def brier_score(self) -> float:
-        """Mean squared error of the chance given to a take's pole: 0 best, 0.25 for no idea."""
+        """Mean squared error of the probability of a take's pole: 0 best, 0.25 at even odds."""
         at_pole = self.meant != 0
         return float(np.mean((0.5 * (self.reading[at_pole] - self.meant[at_pole])) ** 2))
 
 
 @dataclass(frozen=True, slots=True)
 class Training:
-    """A trained model and how well it does on performers that were left out.
+    """A trained model and its cross-validated accuracy on held-out performers.
 
     Attributes
     ----------
-    model : of all takes.
-    alone : by axis, where nothing else is known of a performer.
-    own : by axis, where a performer's takes are known, but not what was meant by them.
+    model : trained on all takes.
+    alone : by axis, for unknown performers.
+    own : by axis, for performers with known, unlabelled takes.
     """
 
     model: EffortModel
@@ -110,13 +110,13 @@ def train(
         ``(n, 132)`` as `laban.description.describe` gives.
     meant
         By axis, ``(n,)``: -1 low pole, 1 high pole, 0 neither, NaN not labelled. Takes of
-        neither pole serve the calibration alone. An axis without a label is left out.
+        neither pole are used for calibration only. An axis without a label is left out.
     performers
-        ``n`` names; takes of one performer are never on both sides.
+        ``n`` names; takes of one performer are never in both training and test.
     trained_on
         What the takes are, in words, kept in the model.
     seed
-        Of the takes, where they were simulated, kept in the model.
+        Of the takes, if they were simulated, kept in the model.
 
     Raises
     ------
@@ -167,7 +167,7 @@ def _trained(
     whose: IntArray,
     against: bool,
 ) -> tuple[Reader, dict[str, AxisReport]]:
-    """Return what all takes teach, and how well that does on performers that were left out."""
+    """Return the reader trained on all takes, and its cross-validated readings by axis."""
     odds = {axis: np.full(len(whose), np.nan) for axis in labelled}
     scores = np.zeros((len(whose), len(STATES)))
     distance = np.zeros(len(whose))
@@ -214,7 +214,7 @@ def _learned(
     against: bool,
     among: NDArray[np.bool_],
 ) -> tuple[Entries, dict[str, Committee], Softmax | None]:
-    """Learn from some takes: what is looked at, each axis, and the joint states."""
+    """Train on some takes: the entries that are used, each axis, and the joint states."""
     descriptions, whose = descriptions[among], whose[among]
     entries = entries_of(descriptions, whose, against)
     seen = seen_in(entries, descriptions, whose)
@@ -234,9 +234,9 @@ def _learned(
 
 
 def entries_of(descriptions: FloatArray, whose: IntArray, against: bool) -> Entries:
-    """Return what is looked at of descriptions ``(n, 132)``, on the scale of these takes.
+    """Return the entries to use of descriptions ``(n, 132)``, standardized on these takes.
 
-    ``against`` the performer's own takes or not; ``whose (n,)`` says which these are.
+    ``against``: relative to the performer's own takes or not; ``whose (n,)`` are the performers.
     """
     sizes = sizes_of(descriptions, _COLUMNS)
     m = len(_COLUMNS)
@@ -276,7 +276,7 @@ def _typical_of(sizes: Sizes, descriptions: FloatArray, whose: IntArray) -> Floa
 def values_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> FloatArray:
     """Return the entries ``(n, m)`` of descriptions ``(n, 132)``.
 
-    Against all the performer's takes among them, ``whose (n,)``, if the entries are so.
+    They are relative to the mean of the performer's takes (``whose (n,)``) if the entries are so.
     """
     if entries.typical is None:
         return entries.values(descriptions)
@@ -294,7 +294,7 @@ def seen_in(entries: Entries, descriptions: FloatArray, whose: IntArray) -> Floa
 
 
 def _states(labelled: Mapping[str, FloatArray], whose: IntArray) -> IntArray | None:
-    """Return each take's joint state, -1 for none; None where too few people had each of them."""
+    """Return each take's joint state, -1 for none; None if too few people have all of them."""
     if not set(STATE_AXES) <= set(labelled):
         return None
     state = np.full(len(whose), -1, dtype=np.int64)
@@ -306,10 +306,10 @@ def _states(labelled: Mapping[str, FloatArray], whose: IntArray) -> IntArray | N
 
 
 def _one_decision(states: Softmax, first: Linear, second: Linear) -> Softmax:
-    """Return the decision of the states' own weights and of both axes' log odds together.
+    """Return the average of the states' own classifier and of both axes' log odds.
 
-    The logarithm of a state's chance is, but for a common term, half of each axis's log odds, with
-    the state's signs; both sides are heard alike.
+    From the axes, the log probability of a state is, up to a common term, half of each axis's log
+    odds, with the state's signs. Both have the same weight.
     """
     signs = 0.5 * np.array(STATES)
     own = np.zeros((len(STATES), COUNT))
@@ -321,7 +321,7 @@ def _one_decision(states: Softmax, first: Linear, second: Linear) -> Softmax:
 
 
 def _sureness(scores: FloatArray, state: IntArray) -> float:
-    """Return what held-out scores ``(n, k)`` are to be multiplied by, as `temperature` does."""
+    """Return the factor that calibrates held-out scores ``(n, k)``, as `temperature` does."""
     scaled = FACTORS[:, None, None] * (scores - scores.max(axis=1, keepdims=True))
     chance = scaled[:, np.arange(len(state)), state] - np.log(np.exp(scaled).sum(axis=-1))
     return float(FACTORS[int(np.argmax(chance.sum(axis=-1)))])
@@ -332,7 +332,7 @@ def _rounded_shares(shares: Mapping[str, float]) -> dict[str, float]:
 
 
 def _short_reader(reader: Reader) -> Reader:
-    """Return a reader without products of no weight, its numbers of `SIGNIFICANT_DIGITS`."""
+    """Return a reader without products of weight 0, its numbers with `SIGNIFICANT_DIGITS`."""
     weights = [part.classifier.weight[None] for part in reader.axes.values()]
     if reader.states is not None:
         weights.append(reader.states.classifier.weight)

@@ -1,4 +1,4 @@
-"""Effort over time: a window that slides over a movement, whole or as it comes."""
+"""Effort over time: a window that slides over a movement, offline or as a stream."""
 
 from __future__ import annotations
 
@@ -63,11 +63,11 @@ def effort_over_time(
 
 
 class EffortStream:
-    """Reads Effort from a movement as it comes, a window every so often.
+    """Reads Effort from a stream of samples, in a window every so often.
 
     Each sample does one short piece of the reading of the windows that are complete, so that no
-    sample takes long; a reading comes some samples after its window's end. What is said is what
-    `effort_over_time` says of the whole, whatever the pieces. No more is kept than a window, and
+    sample takes long; a reading comes some samples after its window's end. The readings equal
+    those of `effort_over_time` on the whole, for any pieces. Only the current window is kept, and
     the one that is being read.
     """
 
@@ -90,8 +90,8 @@ class EffortStream:
     def push(self, motion: RigidMotion) -> list[tuple[float, Effort]]:
         """Take the samples that follow; return the windows whose reading is done: middle, Effort.
 
-        A sample does a piece of work, whatever is left to do; but where windows follow faster than
-        that, the ones before the last are read to their end.
+        A sample does one piece of the work that is left. If windows follow faster than that, all
+        but the last are read to their end.
         """
         if not len(motion):
             return []
@@ -108,14 +108,14 @@ class EffortStream:
         return found
 
     def finish(self) -> list[tuple[float, Effort]]:
-        """Return the windows whose reading was not done yet; the movement is over."""
+        """End the movement; return the windows that were not yet read."""
         found = []
         while self._reading:
             found += self._read(1)
         return found
 
     def _open_windows(self, last_s: float) -> None:
-        """Begin to read the windows that are complete."""
+        """Begin to read the complete windows."""
         while self._next_s + self._window_s <= last_s + 1e-9:
             end_s = self._next_s + self._window_s
             time_s = self._arrays[0]
@@ -128,7 +128,7 @@ class EffortStream:
             self._arrays = tuple(array[first:] for array in self._arrays)
 
     def _read(self, steps: int) -> list[tuple[float, Effort]]:
-        """Do some steps of what there is to read."""
+        """Do some steps of the pending readings."""
         found = []
         for _ in range(steps):
             if not self._reading:

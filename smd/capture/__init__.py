@@ -1,6 +1,5 @@
-"""Capture: from tracked devices to recordings, as they move.
+"""Capture: recording tracked devices while they move.
 
-A source (`smd.capture.source`) says which devices there are and yields their poses; OpenVR and
-recordings played back are two. What a source yields goes to the recorder, which loses nothing,
-and to recognition.
+A source (`smd.capture.source`) lists the devices and yields their poses; OpenVR and the replay of
+recordings are two. Its frames go to the recorder, which loses nothing, and to recognition.
 """

@@ -1,4 +1,4 @@
-"""Work beside the capture: in order, in a process of its own, so that no frame waits for it."""
+"""A worker process beside the capture: it does jobs in order, and no frame waits for it."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from types import TracebackType
 from smd.errors import CaptureError
 
 MOST_WAITING = 10_000
-"""Jobs that may wait, two minutes of frames; a replay, which is fast, waits for them here."""
+"""Capacity of the queue of jobs, two minutes of frames; a replay, which is fast, waits for it."""
 
 
 class Beside:
     """Does jobs one after another in a process.
 
-    A thread of this process would share Python's lock with the one that takes frames, which would
-    wait for it while the other computes, and is itself kept waiting for a core.
+    A thread of this process would share Python's lock with the recording thread. That one would
+    wait for the lock while the other computes, or itself waits for a core.
 
     Parameters
     ----------
     work
-        Called in the process; returns the object whose methods do the jobs. It must come from a
+        Called in the process; returns the object whose methods do the jobs. It must be defined in a
         module, with arguments that can be copied (it and the jobs are pickled, by this program for
         itself).
 
-    What a job raises is raised where the next one is given, or at the end; jobs that follow it are
-    passed over. If this process dies, the other does what it was given, and ends.
+    An exception of a job is raised where the next job is given, or at the end; jobs that follow it
+    are skipped. If this process dies, the other finishes its jobs, and ends.
     """
 
     def __init__(self, work: Callable[[], object]) -> None:
@@ -40,7 +40,7 @@ class Beside:
         theirs, self._jobs = context.Pipe(duplex=False)
         self._answers, answers = context.Pipe(duplex=False)
         self._process = context.Process(target=_serve, args=(work, theirs, answers), daemon=True)
-        # Ctrl-C is for this process: the other ends when it has done what it was given.
+        # Ctrl-C is for this process: the other ends when it has finished its jobs.
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
         try:
             self._process.start()
@@ -74,18 +74,18 @@ class Beside:
             self._raise()
 
     def do(self, job: str, *arguments: object) -> None:
-        """Have a method of the work called, after those that were given before."""
+        """Queue a call of one of the work's methods."""
         self._raise()
         self._waiting.put((job, arguments))
 
     def _end(self) -> None:
-        """Wait until all that was given is done."""
+        """Wait until all jobs are done."""
         self._waiting.put(None)
         self._feeder.join()
         self._process.join()
 
     def _feed(self) -> None:
-        """Hand on what waits: the pipe is short, and the process busy now and then."""
+        """Pass on queued jobs: the pipe is short, and the process busy now and then."""
         broken = False
         while (job := self._waiting.get()) is not None:
             if not broken:  # else the queue is only emptied
@@ -97,7 +97,7 @@ class Beside:
             self._jobs.close()
 
     def _raise(self) -> None:
-        """Raise what has failed over there, or that it is gone."""
+        """Raise the error of the other process, or one that says that it is gone."""
         while self._answers.poll():
             try:
                 failed = self._answers.recv()
@@ -114,12 +114,12 @@ class Beside:
 
 
 def _serve(work: Callable[[], object], jobs: Connection, answers: Connection) -> None:
-    """Do the jobs that come; tell that work has begun, and what was raised first."""
+    """Do the jobs; report that work has begun, and the first exception."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         worker = work()
         gc.collect()
-        gc.freeze()  # going through all that is loaded would delay a job by some 20 ms
+        gc.freeze()  # a pass over all loaded objects would delay a job by some 20 ms
         answers.send(None)
         while True:
             try:
@@ -131,5 +131,5 @@ def _serve(work: Callable[[], object], jobs: Connection, answers: Connection) ->
         with suppress(OSError):
             answers.send(error)
     with suppress(EOFError, OSError):
-        while True:  # nobody is to wait for a pipe that is full
+        while True:  # the other side must not wait for a full pipe
             jobs.recv()

@@ -1,4 +1,4 @@
-"""What a hand does with trigger and grip, over frames that may hold only some of the devices."""
+"""Trigger and grip of a hand, over frames that may hold only some of the devices."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Stretch: TypeAlias = tuple[bool, Iterator[Frame]]
 def stretches(frames: Iterable[Frame]) -> Iterator[Stretch]:
     """Yield frames in stretches: a trigger is held, or none is.
 
-    As with `itertools.groupby`, the frames of a stretch are there until the next one is asked for.
+    As with `itertools.groupby`, the frames of a stretch are valid until the next one is requested.
     """
     held: dict[str, bool] = {}
 

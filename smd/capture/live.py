@@ -22,7 +22,7 @@ from smd.recognition.acceptance import Intent
 from smd.recognition.detection import Detection
 
 KEPT_S = 60.0
-"""So much movement is kept for a phrase that is not decided yet."""
+"""Length of movement that is kept for a phrase that is not decided yet."""
 
 
 class Decided(NamedTuple):
@@ -41,9 +41,9 @@ class Decided(NamedTuple):
 
 
 class LiveRecognition:
-    """Recognises what several devices draw, frame by frame.
+    """Recognises actions in the movement of several devices, frame by frame.
 
-    A device that was lost for longer than smoothing bridges begins anew, as a doodle does.
+    After a dropout that is too long to bridge, a device starts a new stream, as it does a doodle.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class LiveRecognition:
         self._followers: dict[str, _Follower] = {}
 
     def push(self, time_s: float, rows: Mapping[str, Row]) -> list[Decided]:
-        """Take a moment, by serial; return the phrases that it decides."""
+        """Take the rows of one frame, by serial; return the phrases that it decides."""
         decided: list[Decided] = []
         for serial, (pose, drawing) in rows.items():
             if pose is None:
@@ -83,7 +83,7 @@ class LiveRecognition:
                 intent = Intent.FREE if drawing is None else Intent.DRAWN
                 follower = _Follower(self._names[serial], self._recognizer, intent, self._model)
                 self._followers[serial] = follower
-            with suppress(DoodleError):  # a bad sample is in the recording; here it is passed over
+            with suppress(DoodleError):  # a bad sample is in the recording; here it is skipped
                 decided += follower.push(time_s, *self._of_prop(pose[:3], pose[3:]), drawing)
         return decided
 
@@ -134,7 +134,7 @@ class _Follower:
         return [self._decided(detection) for detection in self._spans.finish()]
 
     def _keep(self, motion: RigidMotion) -> None:
-        """Keep smoothed motion for phrases to come, and let go what is too long ago."""
+        """Keep smoothed motion for phrases to come, and drop what is too old."""
         if not len(motion):
             return
         self._smoothed.append(motion)

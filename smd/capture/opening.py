@@ -1,4 +1,4 @@
-"""Opening a source by what the user calls it."""
+"""Opening a source by its name on the command line."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ OPENVR, REPLAY = "openvr", "replay:"
 
 @contextmanager
 def open_source(name: str, rate_hz: float, frame: SourceFrame | None = None) -> Iterator[Source]:
-    """Yield a source, and let go of it afterwards.
+    """Yield a source, and close it afterwards.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def open_source(name: str, rate_hz: float, frame: SourceFrame | None = None) -> 
         ``openvr``; ``replay:FILE``; ``replay:FOLDER`` for its recordings one after another; or
         ``replay:-`` for one on standard input.
     rate_hz
-        Frames a second, of a source that is asked.
+        Frames a second, of a source that is polled.
     frame
         How recordings are to be read.
 
@@ -40,7 +40,7 @@ def open_source(name: str, rate_hz: float, frame: SourceFrame | None = None) -> 
     """
     source = _source(name, rate_hz, frame)
     gc.collect()
-    gc.freeze()  # going through all that is loaded would stop every thread for some 20 ms
+    gc.freeze()  # a pass over all loaded objects would stop every thread for some 20 ms
     try:
         yield source
     finally:
@@ -68,7 +68,7 @@ def _source(name: str, rate_hz: float, frame: SourceFrame | None) -> Source:
 
 
 def _from_standard_input(frame: SourceFrame | None) -> Source:
-    """Return what stands on standard input; readers read files."""
+    """Return a recording from standard input, by way of a file, since readers read files."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "standard-input.txt"
         path.write_bytes(sys.stdin.buffer.read())

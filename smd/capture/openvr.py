@@ -4,7 +4,7 @@ We are a background application: we neither draw in the headset nor start the ru
 those of the standing universe: metres, right-handed, Y up, the floor at 0; a device faces its own
 -Z and has its right at +X, so that each is turned half round its Y to become ours.
 
-What is done every frame is plain Python: with arrays of three rows, recording costs three times as
+The work of every frame is plain Python: with arrays of three rows, recording costs three times as
 much.
 
 References
@@ -42,7 +42,7 @@ _POSE = np.dtype(  # TrackedDevicePose_t of openvr.h
 )
 
 MOST_DOUBT_S = 0.5e-3
-"""The time of a pose is known so well, unless the system is busy for longer than three tries."""
+"""Uncertainty of a pose's time, unless the system is busy for longer than three tries."""
 
 _TRIES = 3
 
@@ -55,7 +55,7 @@ _NEXT_STEP = {
     110: "install SteamVR, start it once, and try again",
     121: "start SteamVR, switch on the controllers, and try again",
 }
-"""What to do about the initialisation errors that a user can mend, by number."""
+"""What to do about the initialisation errors that a user can correct, by number."""
 
 
 class OpenVRSource:
@@ -99,7 +99,7 @@ class OpenVRSource:
         )
 
     def poses(self) -> Iterator[Frame]:
-        """Yield a frame each period; one that comes late is late, and says so by its time.
+        """Yield a frame each period; the time of a late frame says that it is late.
 
         Raises
         ------
@@ -116,7 +116,7 @@ class OpenVRSource:
             time.sleep(max(start_s + periods * self._period_s - time.perf_counter(), 0.0))
 
     def tick(self, serial: str) -> None:
-        """Let a controller be felt for a moment."""
+        """Give a short haptic pulse on a controller."""
         for index, known in self._serials.items():
             if known == serial:
                 self._system.triggerHapticPulse(index, 0, TICK_US)
@@ -128,9 +128,9 @@ class OpenVRSource:
     def _ask(self) -> float:
         """Bring poses and the list of devices up to date; return the time of the poses.
 
-        The poses are of a moment between two readings of the clock. Where the system let others
-        go first in between, that says little, and they are asked for again. The earlier reading
-        is the better one: on the way back another thread of ours may come first.
+        The poses are of a moment between two readings of the clock. If the operating system
+        scheduled other work in between, the moment is uncertain, and the query is repeated. The
+        earlier reading is the better one: on return another thread of ours may run first.
         """
         standing = self._vr.TrackingUniverseStanding
         for _ in range(_TRIES):
@@ -219,7 +219,7 @@ class OpenVRSource:
             return None
 
     def _tracking(self, index: int) -> Tracking:
-        """Return how a device is tracked, as the last poses say."""
+        """Return a device's tracking state in the last poses."""
         pose = self._buffer[index]
         if not pose.bDeviceIsConnected:
             return "away"
@@ -277,7 +277,7 @@ def _system(vr: Any) -> openvr.IVRSystem:
 
 @contextmanager
 def _hushed() -> Iterator[None]:
-    """Keep what the loader prints, past Python, out of our output: errors are told in one line."""
+    """Keep the loader's own prints, past Python, out of our output: errors are one line."""
     sys.stdout.flush()
     kept = [(fd, os.dup(fd)) for fd in (1, 2)]
     nowhere = os.open(os.devnull, os.O_WRONLY)

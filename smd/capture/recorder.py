@@ -1,10 +1,10 @@
 """Recorder: appends samples to a recording file as they come, so that nothing is lost.
 
-Each frame is one write of whole rows, in the system's hands at once: what was written stays when
-the program is killed. Twenty times a second a thread of its own has the system bring it to the
-disk, so that a power cut costs little more than that. The file is a native CSV from its first row
-on; its metadata says that it grows row by row (`smd.formats.native.GROWS`), so that a reader leaves
-out a last row that was cut off.
+Each frame is one write of whole rows, handed to the operating system at once: rows survive if the
+program is killed. Twenty times a second a separate thread flushes the file to the disk, so a power
+cut costs little more than that. The file is a native CSV from its first row on; its metadata says
+that it grows row by row (`smd.formats.native.GROWS`), so that a reader ignores an incomplete last
+row.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from smd.errors import CaptureError
 from smd.formats.native import COLUMNS, GROWS, SCHEMA, VERSION, device_cell
 
 SYNC_S = 0.05
-"""From one request to bring what was written to the disk to the next."""
+"""Interval at which the file is flushed to the disk."""
 
 
 _POSE = "{:.6f},{:.6f},{:.6f},{:.7f},{:.7f},{:.7f},{:.7f}"  # micrometres: finer than any tracker
@@ -36,14 +36,14 @@ class Recorder:
     path
         A ``.csv`` in a folder that exists.
     devices
-        What each device's rows say: its name, by serial.
+        The name in each device's rows, by serial.
     force
-        Write over a file that is there.
+        Overwrite an existing file.
 
     Raises
     ------
     CaptureError
-        If the file is there, or cannot be made.
+        If the file exists, or cannot be created.
     RecordingError
         If a name cannot stand in a recording.
     """
@@ -80,7 +80,7 @@ class Recorder:
         self.close()
 
     def write(self, time_s: float, rows: Mapping[str, Row]) -> None:
-        """Append one moment, by serial.
+        """Append the rows of one frame, by serial.
 
         Raises
         ------
@@ -93,7 +93,7 @@ class Recorder:
         self._append("".join(self._row(serial, *row) for serial, row in rows.items()))
 
     def close(self) -> None:
-        """Bring the file to the disk, and close it."""
+        """Flush the file to the disk, and close it."""
         if self._over.is_set():
             return
         self._over.set()
@@ -106,7 +106,7 @@ class Recorder:
             os.close(self._fd)
 
     def _row(self, serial: str, pose: Pose | None, drawing: bool | None) -> str:
-        """Return what the file says of one device at the time of the last row."""
+        """Return the row of one device at the time of the last row."""
         numbers = _LOST if pose is None else _POSE.format(*pose)
         mark = "" if drawing is None else int(drawing)
         return f"{self.last_s:.6f},{self._cells[serial]},{numbers},{mark}\n"
@@ -127,7 +127,7 @@ class Recorder:
         self._size = size
 
     def _sync(self) -> None:
-        """Bring what was written to the disk, again and again; the next row tells a failure."""
+        """Flush the file to the disk, periodically; a failure is raised at the next row."""
         while not self._over.wait(SYNC_S):
             try:
                 os.fsync(self._fd)
@@ -162,7 +162,7 @@ def _new_file(path: Path, *, force: bool) -> int:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Bring a new file's name to the disk, where the system lets a folder be opened."""
+    """Flush a new file's name to the disk, if the system lets a folder be opened."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:

@@ -1,4 +1,4 @@
-"""A recording played back as a source: what was recorded comes again, frame by frame."""
+"""A recording played back as a source, frame by frame."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ BETWEEN_S = 1.0
 
 
 class ReplaySource:
-    """Recordings, one after another, as fast as they are taken.
+    """Recordings, one after another, as fast as they are consumed.
 
-    The trigger is pressed while the user drew, as far as a recording says so, and else all along;
-    after each recording it is let go. Rows that were lost do not come.
+    The trigger is pressed while the user drew, if a recording says so, and otherwise all along;
+    after each recording it is released. Rows that were lost are left out.
 
     Parameters
     ----------
@@ -57,11 +57,11 @@ class ReplaySource:
         """Do nothing: nobody holds the device."""
 
     def close(self) -> None:
-        """Do nothing: there is nothing to let go of."""
+        """Do nothing: there is nothing to close."""
 
 
 def _device(name: str) -> Device:
-    """Return what a recording's device was, as far as its name tells."""
+    """Return the device of a recording, as far as its name identifies it."""
     if name.lower() in HEADSETS:
         return Device(name, "headset")
     role = name if name in ("left", "right") else ""

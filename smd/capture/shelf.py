@@ -1,4 +1,4 @@
-"""A folder of takes that are numbered: what a take is called, and what belongs to it."""
+"""A folder of numbered takes: their names, and the files of each."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from smd.errors import CaptureError
 
 
 class Shelf:
-    """Files of one stem and a number, ``story-001.csv`` and its like, in a folder.
+    """Files in a folder that are named by a stem and a number, such as ``story-001.csv``.
 
     Parameters
     ----------
     folder
-        Made where only it is missing.
+        Created if it is missing and its parent exists.
     stem
-        What the takes are called.
+        Beginning of the takes' names.
 
     Raises
     ------
@@ -36,7 +36,7 @@ class Shelf:
         self._last = max(numbers, default=0)
 
     def next(self) -> Path:
-        """Return the next take's path, without a suffix; nothing there is called so."""
+        """Return the next take's path, without a suffix; no file there has this name."""
         self._last += 1
         return self._folder / f"{self._stem}-{self._last:03d}"
 

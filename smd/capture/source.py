@@ -1,4 +1,4 @@
-"""What a source of tracked poses is: devices, and frames of their poses in our convention."""
+"""The interface of a source of tracked poses: devices, and frames of poses in our convention."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
 """x, y, z in metres and qx, qy, qz, qw, in the world of `docs/conventions.md`."""
 
 Row: TypeAlias = tuple[Pose | None, bool | None]
-"""What is kept of a device at one moment: its pose, None where tracking was lost, and whether the
-user means to draw, None where nothing says so."""
+"""The record of a device at one moment: its pose, None if tracking was lost, and whether the user
+means to draw, None if that is not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,10 +23,10 @@ class Device:
 
     Attributes
     ----------
-    serial : what it is known by, of all devices its own.
+    serial : its unique identifier.
     kind : headset, controller or tracker.
     role : the hand it is in, "left" or "right", or "" where that is not known.
-    model : what its maker calls it, or "".
+    model : the maker's name for it, or "".
     battery : charge from 0 to 1, None where not known.
     tracking : tracked, lost (switched on, but not seen) or away (not connected).
     """
@@ -40,7 +40,7 @@ class Device:
 
     @property
     def name(self) -> str:
-        """What recordings call it: the hand it is in, "headset", or its serial."""
+        """Its name in recordings: the hand it is in, "headset", or its serial."""
         return self.role or ("headset" if self.kind == "headset" else self.serial)
 
 
@@ -81,7 +81,7 @@ class Source(Protocol):
         """Return the devices there are now."""
 
     def poses(self) -> Iterator[Frame]:
-        """Yield frames as they come, until there are no more.
+        """Yield frames as they arrive, until there are no more.
 
         Raises
         ------
@@ -90,7 +90,7 @@ class Source(Protocol):
         """
 
     def tick(self, serial: str) -> None:
-        """Let a device be felt for a moment, if it can."""
+        """Give a short haptic pulse on a device, if it can."""
 
     def close(self) -> None:
-        """Let go of the devices."""
+        """Release the devices."""

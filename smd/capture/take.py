@@ -1,4 +1,4 @@
-"""One take: frames from a source, recorded as they come, with who drew when."""
+"""One take: frames from a source, recorded as they arrive, with the times of drawing."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from smd.capture.source import Frame, Row
 from smd.errors import CaptureError
 
 SLOWEST_HZ, FASTEST_HZ = 10.0, 1000.0
-"""Below, gestures are lost between two frames; above, no tracker has anything new to say."""
+"""Below, gestures are undersampled; above, no tracker has new data."""
 
 
 def require_rate(rate_hz: float) -> float:
-    """Return a rate of recording, or raise CaptureError where it makes no sense."""
+    """Return a rate of recording, or raise CaptureError if it is out of range."""
     if not SLOWEST_HZ <= rate_hz <= FASTEST_HZ:
         raise CaptureError(
             f"rate: expected {SLOWEST_HZ:g} to {FASTEST_HZ:g} frames a second, got {rate_hz:g}: "
@@ -35,7 +35,7 @@ def require_seconds(seconds: float | None) -> float:
 
 @dataclass(slots=True)
 class Progress:
-    """How a take goes.
+    """The progress of a take.
 
     Attributes
     ----------
@@ -64,22 +64,22 @@ def record(
     hold_to_draw: bool = False,
     seconds: float = math.inf,
 ) -> Iterator[Progress]:
-    """Record frames, and yield how it goes after each.
+    """Record frames, and yield the progress after each.
 
-    A device without a pose gets a row that says that it was lost; one of which a frame says
-    nothing gets none.
+    A device without a pose gets a row that says that it was lost; one that is absent from a frame
+    gets none.
 
     Parameters
     ----------
     frames
         From a source.
     recorder
-        Where they go.
+        The file that they are written to.
     serials
         Serials of the devices to record.
     hold_to_draw
         Whether a device draws only while its trigger is held (one without a trigger: while any
-        trigger is). Otherwise the recording does not say what was meant.
+        trigger is). Otherwise the recording does not hold the intent.
     seconds
         Length of the take.
     """
@@ -103,7 +103,7 @@ def record(
 
 
 def rows_of(frame: Frame, serials: Container[str], *, hold_to_draw: bool) -> dict[str, Row]:
-    """Return what a frame says of some devices: the pose of each, and whether it draws."""
+    """Return the rows of some devices in a frame: the pose of each, and whether it draws."""
     any_held = any(sample.trigger for sample in frame.samples)
     rows: dict[str, Row] = {}
     for serial, pose, trigger, _ in frame.samples:

@@ -1,4 +1,4 @@
-"""Acceptance: what an action may cost, from what movement costs that means nothing.
+"""Acceptance: the threshold of an action, relative to the cost of meaningless movement.
 
 The constants by which costs are judged stand here together: one is traded off against the others.
 """
@@ -13,48 +13,48 @@ from smd.geometry.arrays import BoolArray, FloatArray
 
 
 class Intent(StrEnum):
-    """Whether something says that movement was meant as a gesture."""
+    """Whether movement is known to be meant as a gesture."""
 
     DRAWN = "drawn"
     """The trigger was held: nearly every stroke is meant."""
 
     FREE = "free"
-    """Nothing says so: most movement is not."""
+    """The recording does not say: most movement is not meant."""
 
 
 OWN_MARGIN = {Intent.DRAWN: -0.1, Intent.FREE: 0.3}
-"""How far below its background the cost of an action must lie, as a logarithm, where some of its
+"""How far the cost of an action must lie below its background, as a logarithm, if some of its
 examples are the performer's own."""
 
 OTHERS_MARGIN = {Intent.DRAWN: -0.4, Intent.FREE: 0.35}
-"""The same where all examples are other people's: their way is not quite the performer's, and a
-stroke that is meant is hardly ever nothing."""
+"""The same if all examples are other people's: they differ somewhat from the performer's, and a
+stroke that is meant is almost always an action."""
 
 UNVERIFIED, UNVERIFIED_WRONG = 5.0, 10.0
-"""What an action without examples costs: as much as a fair fit to examples, and more with the
-share of tokens that are wrong. All of them wrong is the most that it may cost."""
+"""Cost of an action without examples: that of a fair fit to examples, plus a part proportional to
+the share of wrong tokens. The threshold is the cost with all tokens wrong."""
 
 PLAINLY = 1.3
-"""Another action is plainly meant where it passes, and the one asked for costs more than so many
+"""Another action is plainly meant if it is accepted, and the one asked for costs more than so many
 times as much. ``python -m benchmarks.own_examples`` prints how many takes that refuses."""
 
 WORTH_NAMING = 2.0
-"""An action that costs more than so many times what it may is no alternative to another one."""
+"""An action that costs more than so many times its threshold is no alternative to another one."""
 
 
 def accepted_cost(
     background: FloatArray, has_own: BoolArray, intent: Intent, *, tolerance: float = 1.0
 ) -> FloatArray:
-    """Return ``(a,)``, the most that each of a actions may cost.
+    """Return the thresholds of ``a`` actions, ``(a,)``: the most that each may cost.
 
     Parameters
     ----------
     background
-        ``(a,)``, the logarithms of what movement costs that means nothing (`background_of`).
+        ``(a,)``, the log costs of meaningless movement (`background_of`).
     has_own
         ``(a,)``, whether some of an action's examples are the performer's own.
     intent
-        Whether something says that movement is meant.
+        Whether the movement is known to be meant.
     tolerance
         Factor on the result: below 1 more is rejected, above it less.
     """

@@ -1,4 +1,4 @@
-"""Alignment: dynamic time warping of two courses of points."""
+"""Alignment: dynamic time warping of two sequences of points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from smd.geometry.arrays import FloatArray, IntArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Alignment:
-    """Which samples of two courses belong together.
+    """The pairing of the samples of two courses.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Alignment:
 
 
 def align(a: ArrayLike, b: ArrayLike, *, band: float | None = None) -> Alignment:
-    """Pair the samples of two courses in order, at the least sum of squared distances.
+    """Pair the samples of two courses in order, with the least sum of squared distances.
 
     Parameters and errors are those of `distance`.
     """
@@ -48,7 +48,7 @@ def align(a: ArrayLike, b: ArrayLike, *, band: float | None = None) -> Alignment
 
 
 def distance(a: ArrayLike, b: ArrayLike, *, band: float | None = None) -> float:
-    """Return the distance of two courses of points, however fast each runs through its own.
+    """Return the distance of two courses of points, independent of their timing.
 
     Dynamic time warping [1]_: every sample is paired with one or more of the other course, in
     order, so that the sum of the pairs' squared Euclidean distances is least. That sum is divided
@@ -63,7 +63,7 @@ def distance(a: ArrayLike, b: ArrayLike, *, band: float | None = None) -> float:
         ``(n, d)`` and ``(m, d)``, finite, at least one sample each.
     band
         How far apart paired samples may be, as a share of the longer course, besides the
-        difference of the lengths [1]_; anything if absent. It saves time in proportion.
+        difference of the lengths [1]_; unlimited if absent. It saves time in proportion.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def pair_distances(a: FloatArray, b: FloatArray, *, band: float | None = None) -
 
 
 def widest_shift(samples: int, band: float) -> int:
-    """Return how many samples apart paired ones may be."""
+    """Return the largest difference of the indices of paired samples."""
     if not 0.0 <= band <= 1.0:
         raise DoodleError(f"band: expected a share in [0, 1], got {band!r}")
     return int(band * samples + 1e-9)

@@ -1,7 +1,7 @@
 """The token alphabet: the bins of directions, their order, names, and angles between them.
 
-A token is two bins, one of translation and one of rotation; whatever goes by bins takes them, and
-how many there are, from here.
+A token is two bins, one of translation and one of rotation. All code that uses bins takes them, and
+their number, from here.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NONE = DIRECTIONS.index((0, 0, 0))
 """Index of the bin of no movement."""
 
 BINS = len(DIRECTIONS)
-"""How many bins there are: 27 of translation, and as many of rotation."""
+"""Number of bins: 27 of translation, and as many of rotation."""
 
 INDEX = {direction: index for index, direction in enumerate(DIRECTIONS)}
 """A direction's bin."""
@@ -51,7 +51,7 @@ def unit_directions() -> FloatArray:
 def angles_rad() -> FloatArray:
     """Return ``(27, 27)``, the angles between the bins' directions.
 
-    Of none, which has no direction, they mean nothing.
+    Those of bin `NONE`, which has no direction, are meaningless.
     """
     units = unit_directions()
     angles = np.arccos(np.clip(units @ units.T, -1.0, 1.0))

@@ -1,4 +1,4 @@
-"""Automaton: the least edit distance from a token string to everything a pattern stands for."""
+"""Automaton: the least edit distance from a token string to the language of a pattern."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from smd.recognition.token_costs import TokenCosts, unit_costs
 from smd.recognition.tokens import Token, codes_of
 
 FAR = 1 << 30
-"""More edits than any string needs: no way leads there."""
+"""More edits than any string needs: there is no path."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Automaton(Frozen):
-    """A pattern compiled for measuring: its states, and how many tokens lie between them.
+    """A pattern compiled for edit distances: its states, and the number of tokens between them.
 
     Each occurrence of a token in the pattern is a position (Glushkov's construction [1]_), and
     positions with the same past and future share a state, as all of ``(T_Z|T_X_Z)+`` does. A
-    string follows a way through states and may stay at each as long as it likes, since repetition
-    of a token does not count; for the same reason neighbouring positions of one token can be read
-    as one. The counts hold the least number of tokens that a way passes without reading them,
-    which are the tokens missing from the string.
+    string follows a path through states and may stay at each for any number of tokens, since
+    repetition of a token does not count; for the same reason neighbouring positions of one token
+    can be read as one. The counts are the least number of tokens that a path passes without
+    reading them, which are the tokens missing from the string.
 
     Attributes
     ----------
     tokens : the tokens that each of the p states reads.
     enter : (p,) int64, tokens missing if a string begins at a state.
-    step : (p, p) int64, ``step[a, b]`` tokens missing if state b reads after a; `FAR` where no
-        way leads from a to b.
+    step : (p, p) int64, ``step[a, b]`` tokens missing if state b reads after a; `FAR` where there
+        is no path from a to b.
     leave : (p,) int64, tokens missing if a string ends at a state.
 
     References
@@ -93,8 +93,8 @@ def edit_distance(
 ) -> float:
     """Return the least cost of the edits that turn ``word`` into a string of the pattern.
 
-    An edit inserts or deletes a token at the cost of 1, or replaces one at its price among
-    ``token_costs``, which is 1 if none are given. A string is of the pattern if, its runs of
+    An edit inserts or deletes a token at the cost of 1, or replaces one at its cost in
+    ``token_costs``, which is 1 if none are given. A string belongs to the pattern if, with runs of
     equal tokens merged, it is one of the pattern's words (the Levenshtein distance of section 4.2
     of the paper, exact for any repetition). `bank.distances` is the fast form, for many patterns.
     """
@@ -108,9 +108,9 @@ def least_cost(automaton: Automaton, *, read: FloatArray, skip: FloatArray) -> f
     Parameters
     ----------
     read
-        ``(n, p)``, what it costs to take token i for one that a state reads.
+        ``(n, p)``, the cost of reading token i at each state.
     skip
-        ``(n,)``, what it costs to leave token i out. A missing token costs 1.
+        ``(n,)``, the cost of deleting token i. A missing token costs 1.
     """
     unread = 0.0
     reached = np.full(len(automaton), float(FAR))
@@ -122,7 +122,7 @@ def least_cost(automaton: Automaton, *, read: FloatArray, skip: FloatArray) -> f
 
 
 def reading(automaton: Automaton, word: Sequence[Token], token_costs: TokenCosts) -> FloatArray:
-    """Return ``(n, p)``, what it costs to take each token for one that each state reads."""
+    """Return ``(n, p)``, the cost of reading each token at each state."""
     columns = [token_costs.between(word, tokens).min(axis=1) for tokens in automaton.tokens]
     return np.stack(columns, axis=1)
 
@@ -170,7 +170,7 @@ def _glushkov(
 def _least_changes(tokens: list[Token], follow: Sequence[tuple[set[int], set[int]]]) -> IntArray:
     """Return ``(p, p)``: the least number of changes of token on a way between two positions."""
     p = len(tokens)
-    # No way has p changes; the smaller the numbers, the more of them are added at once.
+    # No path has p changes; the smaller the numbers, the more of them are added at once.
     changes = np.full((p, p), p, dtype=np.min_scalar_type(2 * p))
     codes = codes_of(tokens)
     for before, after in follow:

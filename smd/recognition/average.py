@@ -1,4 +1,4 @@
-"""Average: the doodle in the middle of several ones of the same gesture."""
+"""Average: the mean doodle of several ones of the same gesture."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def average_doodle(
     doodles
         At least one, of at least two samples each.
     figure_height_m
-        Moving so far is weighed as turning by a radian.
+        A translation by this counts as much as a rotation by a radian.
 
     Returns
     -------

@@ -1,8 +1,8 @@
-"""Background: how unlike an action any movement is, from made-up movement that means nothing.
+"""Background: the cost of meaningless movement as an action, from synthetic movement.
 
-Some gestures are like much of what hands do, others like nothing else. What a gesture may cost to
-be taken for an action is therefore told by what movement costs that is not meant as anything, as
-in the cohort normalisation of speaker verification [1]_.
+Some gestures resemble much of what hands do, others nothing else. So the threshold of an action is
+relative to the cost of movement that is not meant as anything, as in the cohort normalisation of
+speaker verification [1]_.
 
 References
 ----------
@@ -29,23 +29,23 @@ from smd.smoothing import smooth
 
 SEED = 20261129
 MOVERS, MOVER_S, RATE_HZ = 20, 30.0, 60.0
-"""So many made-up hands move for so long each; ten minutes in all."""
+"""Number of synthetic hands, and how long each moves; ten minutes in all."""
 
 STRETCHES = 240
-"""Stretches of each hand's movement that actions are held against."""
+"""Stretches of each hand's movement that are weighed."""
 
 SHORTEST_S, LONGEST_S = 0.15, 12.0
 """How long they are; the logarithm is uniform."""
 
 OWN_LENGTHS = (0.7, 1.4)
-"""Those that last so many times as long as an action usually does are its background."""
+"""Stretches of this range of lengths, relative to an action's duration, are its background."""
 
 QUANTILE = 0.02
-"""The share of its background that is more like an action than its `background_of` tells."""
+"""The share of an action's background that costs less than its `background_of`."""
 
 FEWEST = 100
-"""An action that lasts longer or less than all of the background is held against its longest or
-shortest stretches, so many."""
+"""Least number of stretches: for an action longer or shorter than all of the background, its
+longest or shortest ones."""
 
 
 class Background(NamedTuple):
@@ -71,10 +71,10 @@ def weighed(exemplar: Exemplar) -> Exemplar:
 
 
 def background_of(exemplar: Exemplar) -> float:
-    """Return the logarithm of what movement that means nothing costs, seen as an action.
+    """Return the log cost of meaningless movement that is weighed as an action.
 
-    That is the `QUANTILE` of the costs of weighing stretches of made-up movement, about as long as
-    the action's examples, against these, tokens apart.
+    That is the `QUANTILE` of the costs of stretches of synthetic movement, about as long as the
+    action's examples, compared with these examples, without tokens.
     """
     traits, duration_s = background()
     times = duration_s / exemplar.duration_s
@@ -104,7 +104,7 @@ def background_of(exemplar: Exemplar) -> float:
 
 @cache
 def background() -> Background:
-    """Return the stretches that every action is held against; the same each time."""
+    """Return the stretches that every action is compared with; the same each time."""
     rng = np.random.default_rng(SEED)
     parts, durations = [], []
     for _ in range(MOVERS):
@@ -128,10 +128,10 @@ def _traits(motion: RigidMotion, start_s: FloatArray, length_s: FloatArray) -> T
 
 
 def made_up_movement(rng: np.random.Generator, *, duration_s: float) -> Doodle:
-    """Return what a hand does that means nothing: it reaches somewhere, turns, waits and drifts.
+    """Return synthetic movement without meaning: a hand reaches somewhere, turns, waits and drifts.
 
-    Strokes follow the minimum-jerk course to places drawn at random. How large and how lively
-    a hand moves is drawn once. All numbers are ours.
+    Strokes follow the minimum-jerk profile to random places. The size and pace of a hand's
+    movement are drawn once. All numbers are ours.
     """
     time_s = np.arange(0.0, duration_s, 1.0 / RATE_HZ)
     reach_m, lively = np.exp(rng.normal(np.log(0.12), 0.8)), rng.uniform(0.2, 0.9)

@@ -1,4 +1,4 @@
-"""Bank: the patterns of a library, compiled to be measured all at once."""
+"""Bank: the patterns of a library, compiled so that all distances are computed at once."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from smd.recognition.tokens import Token, codes_of
 
 
 class Front(NamedTuple):
-    """How far a string has come in every automaton of a bank.
+    """The states of every automaton of a bank after the tokens so far.
 
-    ``cost (s,)`` is the least cost of standing at each state; ``start (s,)`` the token at which
-    the part that does so begins, the last one where several cost the same.
+    ``cost (s,)`` is the least cost of being at each state; ``start (s,)`` the token at which the
+    substring with that cost begins, the last one if several cost the same.
     """
 
     cost: FloatArray
@@ -34,14 +34,14 @@ class Bank(Frozen):
     Attributes
     ----------
     names : of the a actions.
-    token_costs : what it costs to take one token for another.
+    token_costs : the costs of substituting one token for another.
     tokens : (k,) int64, the codes of what the states read, state after state.
     first : (s,) int64, where each state begins in ``tokens``.
     state : (a,) int64, where each action begins among the states.
     enter, leave : (s,), tokens missing before a state that begins, and after one that ends.
-    source, missing : (w,), of each way from state to state where it comes from (int64), and the
-        tokens missing on it; ordered by where they lead.
-    way : (s,) int64, where the ways to each state begin; each has one from itself.
+    source, missing : (w,), the source state of each transition (int64), and the tokens missing on
+        it; ordered by target state.
+    way : (s,) int64, where the transitions to each state begin; each has one from itself.
     shortest : (a,), tokens of the shortest string.
     """
 
@@ -84,9 +84,9 @@ class Bank(Frozen):
     ) -> Front:
         """Return the front one token later.
 
-        The token is left out of the part so far, or read by a state that the part comes to from
+        The token is deleted from the substring so far, or read by a state that is reached from
         another one (or from itself, since repetition does not count), or by a state at which a
-        part begins::
+        substring begins::
 
             cost'(c) = min( cost(c) + skip,
                             min over b of cost(b) + missing(b, c) + read(c),
@@ -95,13 +95,13 @@ class Bank(Frozen):
         Parameters
         ----------
         entering
-            What it has cost to get to this token without any part.
+            The cost of everything before this token, if a substring begins here.
         at
             The token's number.
         read
-            ``(s,)``, what it costs to take the token for one that a state reads.
+            ``(s,)``, the cost of reading the token at each state.
         skip
-            What it costs to leave the token out.
+            The cost of deleting the token.
         """
         ways = front.cost[self.source] + self.missing
         going_on = np.minimum.reduceat(ways, self.way)
@@ -118,7 +118,7 @@ class Bank(Frozen):
         return Front(np.minimum(skipping, arriving), start)
 
     def leaving(self, front: Front) -> Front:
-        """Return ``(a,)`` the least cost of ending here, and where the part that does so began."""
+        """Return ``(a,)`` the least cost of ending here, and where that substring began."""
         ways = front.cost + self.leave
         least = np.minimum.reduceat(ways, self.state)
         best = ways == np.repeat(least, np.diff(self.state, append=len(ways)))
@@ -127,13 +127,13 @@ class Bank(Frozen):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Occurrences:
-    """Where in a string something like each of a patterns ends.
+    """The nearest substrings to each of ``a`` patterns, by their ends.
 
     Attributes
     ----------
-    distance : (n + 1, a), ``distance[j]`` the least distance of a part that ends before token j;
-        the part may be empty.
-    start : (n + 1, a) int64, where that part begins; the shortest one if several are as near.
+    distance : (n + 1, a), ``distance[j]`` the least distance of a substring that ends before
+        token j; it may be empty.
+    start : (n + 1, a) int64, where that substring begins; the shortest one if several are as near.
     """
 
     distance: FloatArray
@@ -144,7 +144,7 @@ def compile_library(patterns: Mapping[str, Pattern], token_costs: TokenCosts | N
     """Compile patterns by action; unit costs if none are given.
 
     See `compile_automaton` for what a state is. A step of the bank takes O(w) operations for w
-    ways from state to state, all in a dozen array operations.
+    transitions, all in a dozen array operations.
     """
     automata = [compile_automaton(pattern) for pattern in patterns.values()]
     reads = [codes_of(sorted(tokens)) for each in automata for tokens in each.tokens]
@@ -171,7 +171,7 @@ def compile_library(patterns: Mapping[str, Pattern], token_costs: TokenCosts | N
 
 
 def occurrences(bank: Bank, word: Sequence[Token]) -> Occurrences:
-    """Find, for each action and each end in a string, the part that is nearest to the pattern.
+    """Find, for each action and each end in a string, the substring nearest to the pattern.
 
     One pass over the string (Sellers' algorithm [1]_ on automata), exact. A token too many and a
     token missing cost 1, a wrong one what ``bank.token_costs`` say.
@@ -207,9 +207,9 @@ def least_costs(bank: Bank, *, read: FloatArray, skip: FloatArray) -> FloatArray
     Parameters
     ----------
     read
-        ``(n, s)``, what it costs to take token i for one that a state reads.
+        ``(n, s)``, the cost of reading token i at each state.
     skip
-        ``(n,)``, what it costs to leave token i out. A missing token costs 1.
+        ``(n,)``, the cost of deleting token i. A missing token costs 1.
     """
     return least_costs_of_parts(bank, [(0, len(read))], read=read, skip=skip)[0]
 

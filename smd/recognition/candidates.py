@@ -1,4 +1,4 @@
-"""Candidates: the stretches of a doodle that are weighed as actions at all."""
+"""Candidates: the stretches of a doodle that are weighed as actions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from smd.recognition.stretches import dense_stretches
 from smd.recognition.tokens import TokenRun
 
 Stretch: TypeAlias = tuple[int, int, bool]
-"""A stretch's first run, the one after its last, and whether only its length speaks for it."""
+"""A stretch's first run, the one after its last, and whether it is proposed by its length alone."""
 
 
 def candidate_stretches(
@@ -26,8 +26,8 @@ def candidate_stretches(
 ) -> list[Stretch]:
     """Return the stretches of n runs that may be an action, without stir at their ends.
 
-    They come from the automata, and from rest to rest. Where nothing says that movement is meant,
-    hands hardly rest, and stretches come from everywhere besides, at the lengths that actions have.
+    The automata propose some; others reach from rest to rest. In free movement hands hardly rest,
+    so dense stretches are added: everywhere, with the lengths of actions.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def candidate_stretches(
     is_still
         ``(n,)``.
     durations_s
-        ``(a,)``, how long each action usually takes, at least one.
+        ``(a,)``, usual duration of each action, at least one.
     intent
         Whether the movement is meant.
     """

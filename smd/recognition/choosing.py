@@ -24,9 +24,8 @@ TOGETHER = 1024
 """Stretches whose courses are held in memory at a time."""
 
 Fits: TypeAlias = dict[tuple[float, float, bool], FloatArray]
-"""How unlike actions' examples stretches are, tokens apart, ``(a,)``, by start and end in seconds
-and whether only their lengths speak for them; infinite where that is more than an action may
-cost."""
+"""Costs of stretches against actions' examples, without tokens, ``(a,)``: by start and end in
+seconds, and whether a stretch is proposed by its length alone. Infinite above the threshold."""
 
 
 def chosen_stretches(
@@ -38,22 +37,21 @@ def chosen_stretches(
 ) -> list[Segment]:
     """Choose the stretches of runs that are actions, in time order.
 
-    Each candidate is weighed by its tokens and against examples, and left aside where it costs more
-    than an action may. A stretch gains, a second of movement, the logarithm of how many times
-    less it costs than it may; of those that do not overlap the ones are chosen that gain most
-    together.
+    Each candidate is weighed by its tokens and against examples, and rejected above the threshold
+    of an action. The gain of a stretch, for each second of movement, is the logarithm of its
+    threshold over its cost. The non-overlapping stretches with the largest total gain are chosen.
 
     Parameters
     ----------
     actions
         Of which some have examples.
     motion, runs
-        Of one doodle, or of what is there of it.
+        Of one doodle, or of its part so far.
     intent
         Whether the movement is meant.
     known
-        How well stretches fit examples, where that is known, and where it is written down:
-        a stretch does not change when more of the doodle comes.
+        Cache of the costs of stretches against examples, read and extended: they do not change
+        when more of the doodle comes.
     """
     prices = run_costs(runs, actions.costs)
     most = actions.most[intent]
@@ -84,7 +82,7 @@ def _fits(
     most: FloatArray,
     known: Fits,
 ) -> FloatArray:
-    """Return ``(g, a)``, how unlike actions' examples stretches are, their tokens apart."""
+    """Return ``(g, a)``, the costs of stretches against actions' examples, without tokens."""
     spans = [(runs[i].start_s, runs[j - 1].end_s, dense) for i, j, dense in stretches]
     new = [span for span in dict.fromkeys(spans) if span not in known]
     for begin in range(0, len(new), TOGETHER):
@@ -120,7 +118,7 @@ def _add_unverified(
     runs: Sequence[TokenRun],
     prices: RunCosts,
 ) -> None:
-    """Write into the costs what proposals cost of actions that have no examples."""
+    """Write into the costs those of proposals of actions that have no examples."""
     unexplained = np.concatenate([[0.0], np.cumsum(prices.unexplained)])
     place = {(first, last): i for i, (first, last, _) in enumerate(stretches)}
     for one in proposed:

@@ -1,4 +1,4 @@
-"""Collisions: which patterns of a library can be taken for one another, and what parts them."""
+"""Collisions: patterns of a library that can be confused, and what tells them apart."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _SEVERITY: tuple[Kind, ...] = ("equal", "contained", "shared", "part", "near")
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """Two actions that can be taken for one another.
+    """Two actions that can be confused with one another.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Collision:
     suggestion: str
 
     def __str__(self) -> str:
-        """Return what collides and what would part it, in one line."""
+        """Return what collides and what would tell it apart, in one line."""
         shown, other = _shown(self.witness), _shown(self.counterpart)
         match self.kind:
             case "equal":
@@ -71,10 +71,10 @@ class Collision:
 
 
 def collisions(patterns: Mapping[str, Pattern], *, within: int = 1) -> tuple[Collision, ...]:
-    """Return the pairs of actions that can be taken for one another, the worst first.
+    """Return the pairs of actions that can be confused with one another, the worst first.
 
-    Exact for all strings of both patterns, however often they repeat (`languages`); each pair is
-    listed once, for the worst that holds of it.
+    Exact for all strings of both patterns, for any repetition (`languages`); each pair is listed
+    once, with the worst kind that applies.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""CompiledActions: what a library's actions are recognised by, made ready once."""
+"""CompiledActions: a library's actions, compiled once for recognition."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ class CompiledActions(Frozen):
     bank : their automata.
     verification : their examples.
     has_examples : (a,) bool.
-    durations_s : (a,), how long each usually takes; NaN where there are no examples.
-    most : what each may cost, (a,), by whether the movement is meant.
+    durations_s : (a,), usual duration of each; NaN without examples.
+    most : thresholds, (a,), by intent.
     figure_height_m : height of the figurine that the prop stands for.
     costs : what the tokens of a stretch are weighed by.
     """
@@ -88,7 +88,7 @@ class CompiledActions(Frozen):
     def traits(
         self, motion: RigidMotion, spans_s: Sequence[tuple[float, float]], *, every: int = 1
     ) -> Traits:
-        """Return the traits of spans of a motion, by every so many-th sample."""
+        """Return the traits of spans of a motion, with courses of every n-th sample."""
         return traits_of_parts(motion, spans_s, figure_height_m=self.figure_height_m, every=every)
 
 

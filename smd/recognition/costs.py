@@ -1,4 +1,4 @@
-"""Costs: what recognition pays for reading a run, leaving it out, or leaving it alone."""
+"""Costs: those of reading a run, of deleting it from an action, and of leaving it unexplained."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from smd.recognition.tokens import STILL, TokenRun
 
 @dataclass(frozen=True, slots=True)
 class Costs:
-    """What recognition weighs against each other, in edits of a pattern.
+    """The costs that segmentation minimizes, in edits of a pattern.
 
     Attributes
     ----------
-    action : of seeing an action at all. Together with ``unexplained`` it says how much movement
-        an action needs: half of ``worth``, which is 9 cm or 29 degrees, where nothing is wrong.
-    worth : how much movement (figure heights travelled plus radians turned) costs one edit to
-        leave out of an action; less costs less in proportion, more no more.
-    unexplained : of leaving a run outside of all actions, as a share of leaving it out of one.
-        Were it 1, an action could reach over any amount of other movement at no price.
-    still_per_s : of stillness within an action, a second. Two like gestures are two when the
-        pause between them costs more than another action (`pause_s`); a bow may be held while
-        that costs less than to leave its two strokes unexplained.
-    faint, faint_beside : movement below which a run is hardly a stroke of its own: an amount, or
-        if that is less, a share of a run beside it (that share of the share for the next but one,
-        and so on up to a pause). Taking such a run for a token of a pattern costs up to one edit,
-        as if the token were missing.
+    action : of every action. Together with ``unexplained`` it sets how much movement an action
+        needs if nothing is wrong: half of ``worth``, which is 9 cm or 29 degrees.
+    worth : amount of movement (figure heights travelled plus radians turned) whose deletion from
+        an action costs one edit; less costs proportionally less, more costs no more.
+    unexplained : of leaving a run outside of all actions, as a share of deleting it from one.
+        At 1, an action could extend over any amount of other movement at no cost.
+    still_per_s : of stillness within an action, a second. Two equal gestures are two if the pause
+        between them costs more than another action (`pause_s`); a bow may be held while that costs
+        less than leaving its two strokes unexplained.
+    faint, faint_beside : movement below which a run hardly counts as a stroke of its own: an
+        amount, or if that is less, a share of a run beside it (squared for the next but one, and
+        so on up to a pause). Matching such a run to a token of a pattern costs up to one edit, as
+        if the token were missing.
     sharpness : of the confidence, per edit.
     """
 
@@ -44,7 +44,7 @@ class Costs:
 
     @property
     def pause_s(self) -> float:
-        """The shortest stillness that parts two like gestures."""
+        """The shortest stillness that separates two equal gestures."""
         return self.action / self.still_per_s
 
 
@@ -53,13 +53,13 @@ DEFAULT_COSTS = Costs()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunCosts:
-    """What each of n runs costs.
+    """The costs of each of n runs.
 
     Attributes
     ----------
-    skip : (n,), left out of an action around it.
+    skip : (n,), deleted from an action around it.
     unexplained : (n,), left outside of all actions.
-    faintness : (n,), 0 for a stroke of its own to 1 for next to nothing beside its neighbours.
+    faintness : (n,), from 0 for a stroke of its own to 1 for a run far smaller than its neighbours.
     is_still : (n,) bool.
     """
 
@@ -79,7 +79,7 @@ class RunCosts:
 
 
 def run_costs(runs: Sequence[TokenRun], costs: Costs) -> RunCosts:
-    """Return what each run costs, apart from what it is taken for."""
+    """Return the costs of each run that do not depend on the token it is matched to."""
     extent = np.array([run.travel_heights + run.turn_rad for run in runs])
     is_still = np.array([run.token == STILL for run in runs], dtype=bool)
     duration_s = np.array([run.end_s - run.start_s for run in runs])

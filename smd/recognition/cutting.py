@@ -12,10 +12,10 @@ from smd.geometry.arrays import FloatArray
 def best_cut(
     first: Sequence[int], last: Sequence[int], cost: Sequence[float], unexplained: FloatArray
 ) -> tuple[int, ...]:
-    """Choose stretches of n tokens so that their costs and that of all tokens between are least.
+    """Choose stretches of n tokens that minimize their costs plus those of all tokens between.
 
-    Weighted interval scheduling: the best way up to a token leaves it unexplained, or ends with a
-    stretch and goes on from the best way up to where that began. Exact, in time linear in tokens
+    Weighted interval scheduling: the best choice up to a token leaves it unexplained, or ends with
+    a stretch and extends the best choice up to where that began. Exact, in time linear in tokens
     and stretches.
 
     Parameters

@@ -21,15 +21,15 @@ from smd.geometry.rotations import (
 )
 
 SAMPLES = 64
-"""Poses that stand for a gesture: one every 30 ms of a gesture of 2 s."""
+"""Poses that represent a gesture: one every 30 ms of a gesture of 2 s."""
 
 METRES_PER_RADIAN = DEFAULT_FIGURE_HEIGHT_M
-"""How far moving is as far as turning by a radian: a figurine that moves by its own height moves
-as visibly as one that turns by a radian (the tokenizer weighs them alike)."""
+"""Translation that counts as much as rotation by a radian: a figurine that moves by its own height
+moves as visibly as one that turns by a radian (the tokenizer weighs them alike)."""
 
 
 class PoseSequence(NamedTuple):
-    """Where a prop is and how it is turned, over time.
+    """Positions and orientations of a prop over time.
 
     ``position_m (…, n, 3)`` and ``orientation_xyzw (…, n, 4)``; leading axes: several gestures.
     """
@@ -58,8 +58,8 @@ def sample_poses(source: Doodle | RigidMotion, samples: int = SAMPLES) -> PoseSe
 def heading_frame(poses: PoseSequence) -> FloatArray:
     """Return the frame whose up is the world's and whose front is the prop's, ``(…, 4)``.
 
-    Seen from above, the front is the mean of the poses' fronts, as long as they are; poses that
-    look up or down so have little say. If they cancel, it is the front of the first pose.
+    The front is the mean of the poses' fronts, projected to the ground plane and not normalised, so
+    poses that look up or down have little weight. If they cancel, it is that of the first pose.
     """
     q = poses.orientation_xyzw
     mean = rotate(q, np.broadcast_to([0.0, 0.0, 1.0], (*q.shape[:-1], 3))).mean(axis=-2)

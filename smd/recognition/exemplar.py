@@ -1,4 +1,4 @@
-"""Exemplar: what verification remembers of an action's examples."""
+"""Exemplar: what verification keeps of an action's examples to compare gestures with."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from smd.recognition.alignment import distance_table
 from smd.recognition.traits import COURSES, FLOORS, MEASURES, SAMPLES, Traits, fitted
 
 BAND = 0.25
-"""How far warping may shift, as a share of the gesture."""
+"""Band of the time warping, as a share of the gesture."""
 
 FACING_RAD, ASKEW_RAD = np.radians(30.0), np.radians(20.0)
-"""How far a hand may face beside where the user means to, and hold the prop askew."""
+"""Largest errors of facing, and of holding the prop askew, that are removed."""
 
 USUAL_DISTANCE = (0.4, 0.4, 0.9, 0.9)
 """Of each course, from an example to the nearest other one of the same person and action: the
@@ -29,20 +29,20 @@ USUAL_SPREAD = (0.25, 0.25, 0.3, 0.4)
 """Standard deviation of each measure between examples of one person and action; the same people."""
 
 PRIOR_DISTANCES, PRIOR_SPREADS = 30.0, 4.0
-"""How many examples the usual distances and spreads count for. Three examples say little about
-how much the next one may differ."""
+"""Number of examples that the priors of distance and spread count for: three examples carry little
+information on how much the next one may differ."""
 
 MOST_OWN_DISTANCES = 6
-"""How many examples an action's own distances count for at most: where there are many, the
+"""Largest number of examples that an action's own distances count for: with many examples, the
 nearest one is near because they are many."""
 
 STRANGERS = 1.0
-"""How many examples of the performer's own all examples of others together count for, where there
-are own ones, in what is usual: how large, fast and far somebody draws an action, and how much that
-differs, is told by one take of theirs as well as by all other people."""
+"""Number of own examples that all examples of others together count for, if there are own ones, in
+the statistics (size, speed and extent of an action, and their spread): one take of the performer
+carries as much information as all other people's."""
 
 FARTHER = 1.1
-"""Factor on the distance to an example of somebody else, where there are own ones."""
+"""Factor on the distance to an example of somebody else, if there are own ones."""
 
 Ownership: TypeAlias = bool | Sequence[int]
 """Which of an action's examples are the performer's own: all, none, or those of some numbers."""
@@ -50,24 +50,24 @@ Ownership: TypeAlias = bool | Sequence[int]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exemplar(Frozen):
-    """What verification remembers of an action's examples.
+    """What verification keeps of an action's examples to compare gestures with.
 
-    Where some examples are the performer's own and some are others', an own one counts for more
-    (`STRANGERS`, `FARTHER`). Where all are of one kind, all count the same.
+    If some examples are the performer's own and some are others', an own one counts for more
+    (`STRANGERS`, `FARTHER`). If all are of one kind, all count the same.
 
     Attributes
     ----------
     courses : by name, each ``(n, SAMPLES, d)``, of n examples.
-    measures : (n, 4), logarithms of how long, how large, how far and how much turned each is.
-    apart : (n, 4), from each example's courses to the nearest other example's; empty ``(0, 4)``
-        where n is 1.
+    measures : (n, 4), logarithms of duration, extent, path and turning of each.
+    apart : (n, 4), distance of each example's courses from the nearest other example's; empty
+        ``(0, 4)`` if n is 1.
     own : (n,), which examples are of the person whose gestures are to be recognised.
-    scale : (4,), how far a gesture's courses usually are from the nearest example's.
-    centre, spread : (4,), what is usual of the measures, and by how much they differ.
+    scale : (4,), usual distance of a gesture's courses from the nearest example's.
+    centre, spread : (4,), mean and standard deviation of the measures, with priors.
     central : (SAMPLES, 12), the course in the heading frame that others are turned to.
-    factor : (n,), what a distance to each example is multiplied by, at least 1.
-    background : what movement that means nothing costs, seen as the action, as a logarithm
-        (`smd.recognition.background`); None where it was not weighed yet.
+    factor : (n,), factor on the distance to each example, at least 1.
+    background : log cost of meaningless movement that is weighed as the action
+        (`smd.recognition.background`); None if it was not weighed yet.
     """
 
     courses: Mapping[str, FloatArray]
@@ -125,7 +125,7 @@ class Exemplar(Frozen):
 
     @property
     def duration_s(self) -> float:
-        """How long the action usually takes."""
+        """The usual duration of the action."""
         return float(np.exp(self.centre[MEASURES.index("duration")]) - FLOORS[0])
 
     def to_arrays(self) -> dict[str, FloatArray]:
@@ -177,12 +177,12 @@ class Exemplar(Frozen):
 
 
 def exemplar_of(examples: Sequence[Traits], *, own: Ownership = False) -> Exemplar:
-    """Return what verification remembers of an action's examples, at least one.
+    """Return the exemplar of an action's examples, at least one.
 
     Parameters
     ----------
     examples
-        What each is like.
+        The traits of each.
     own
         Which are the performer's own: all, none, or those of some numbers.
 
@@ -224,7 +224,7 @@ def faced(shapes: FloatArray, central: FloatArray) -> FloatArray:
 
 
 def nearest_distances(gestures: FloatArray, examples: FloatArray) -> FloatArray:
-    """Return ``(p,)``: how far each of p gestures is from the nearest of m examples, warped.
+    """Return ``(p,)``: the warped distance of each of p gestures to the nearest of m examples.
 
     Both are one course of each, ``(p, SAMPLES, d)`` and ``(m, SAMPLES, d)``.
     """

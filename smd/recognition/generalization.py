@@ -17,24 +17,24 @@ from smd.recognition.simplification import Group, simplified
 from smd.recognition.tokens import STILL, Token
 
 MANDATORY_SHARE = 0.2
-"""A token must occur where its movement is at least this share of the largest in its example, on
-average over the examples; less may be how a hand sets out, arrives, or rounds a corner."""
+"""A token is mandatory if its movement is at least this share of the largest in its example, on
+average over the examples; smaller ones may be a start, a stop, or a rounded corner."""
 
 ENOUGH_EXAMPLES = 3
-"""From so many examples on, what all of them have is meant, however small."""
+"""From so many examples on, a token that all of them have is mandatory, however small."""
 
 MOST_OPTIONAL = 3
 """Optional columns between two mandatory ones; more become one group that has all their tokens."""
 
 
 def generalized(examples: Sequence[Sequence[WeightedToken]]) -> tuple[Group, ...]:
-    """Return what all of several sequences read through, from left to right.
+    """Return groups of tokens that all of several sequences match, from left to right.
 
     Section 4.3 of the paper [1]_, with one change: it pairs the mandatory tokens of the examples
-    by their index, so that one token too many in one example shifts all that follow. Here
-    sequences are aligned so that like tokens stand in one column. A column where every
-    example has a token, and which is more than a trifle, becomes a mandatory group of the tokens
-    that stand there; the columns between become optional groups, in their order.
+    by their index, so that one extra token in one example shifts all that follow. Here sequences
+    are aligned so that similar tokens stand in one column. A column where every example has a
+    token, and whose movement is not negligible, becomes a mandatory group of its tokens; the
+    columns between become optional groups, in their order.
 
     Parameters
     ----------
@@ -64,9 +64,9 @@ def generalized(examples: Sequence[Sequence[WeightedToken]]) -> tuple[Group, ...
 def ways_of(examples: Sequence[Sequence[WeightedToken]]) -> list[tuple[Group, ...]]:
     """Return the ways in which a gesture is drawn: as few as have a mandatory column each.
 
-    One, as `generalized` gives it, where all examples share a column. If not, those that share the
-    fullest one (the larger movement, if several are as full) are taken apart from the others, and
-    so on: each example is accepted by one of the ways.
+    If all examples share a column there is one way, that of `generalized`. If not, those that
+    share the fullest column (the larger movement, if several are as full) are separated from the
+    others, and so on: each example is accepted by one of the ways.
     """
     groups = generalized(examples)
     if groups:
@@ -102,9 +102,9 @@ def odd_one_out(examples: Sequence[Sequence[WeightedToken]]) -> int:
 
 
 def stranger(examples: Sequence[Sequence[WeightedToken]]) -> int | None:
-    """Return an example none of whose movements is like one of any other example, if there is one.
+    """Return an example none of whose movements resembles one of any other example, or None.
 
-    The one whose largest movement is least like those of the others comes first.
+    If there are several, it is the one whose largest movement is least similar to the others'.
     """
     large = [{s.token for s in one if s.weight >= MANDATORY_SHARE} for one in examples]
     odd = odd_one_out(examples)

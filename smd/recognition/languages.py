@@ -1,6 +1,6 @@
-"""Languages: what two patterns have in common, exactly, with a string that shows it.
+"""Languages: exact comparisons of the languages of two patterns, with a string that shows each.
 
-All of it walks two compiled automata side by side. Strings are counted as patterns are: without
+All functions traverse two compiled automata in parallel (product construction). Strings have no
 equal neighbours, since the repetition of a token does not matter.
 """
 
@@ -47,13 +47,13 @@ def nearest_words(
     """Return the least edit distance between any string of one pattern and any of the other.
 
     An edit inserts, deletes or replaces a token. Either string may repeat its tokens before it is
-    edited: ``T_Z T_Y T_Z`` is one edit from ``T_Z``. All pairs of states that so many edits reach
-    are followed together.
+    edited: ``T_Z T_Y T_Z`` is one edit from ``T_Z``. The search is breadth-first by edits, over
+    pairs of states.
 
     Parameters
     ----------
     most
-        How far to look, in edits.
+        Largest distance to search, in edits.
     replaceable
         For tokens of the one and of the other pattern, ``(n, m)``: whether one edit replaces the
         first by the second; if not, it takes two.
@@ -81,8 +81,9 @@ def inner_word(a: Pattern, part: Pattern) -> Word | None:
 def extra_word(a: Pattern, b: Pattern) -> Word | None:
     """Return the shortest string of ``a`` that ``b`` does not accept; None if it accepts all.
 
-    The states that ``b`` may be in are followed together; of several sets that meet the same state
-    of ``a``, only those that hold no other are followed further, which keeps them few [1]_.
+    The set of states that ``b`` may be in is followed (subset construction); of several sets that
+    meet the same state of ``a``, only those that contain no other are followed further, which
+    keeps them few (antichains [1]_).
 
     References
     ----------
@@ -105,7 +106,7 @@ def holding_word(a: Pattern, part: Pattern) -> Word | None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Walk:
-    """Ways through a pattern's p states on which no token is missing; the last state is the start.
+    """Paths through a pattern's p states with no token missing; the last state is the start.
 
     Attributes
     ----------

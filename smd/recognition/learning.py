@@ -22,7 +22,7 @@ LEAST_WEIGHT = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LearnedPattern:
-    """A pattern, and what it was learned from.
+    """A pattern, and its training examples.
 
     Attributes
     ----------
@@ -32,9 +32,9 @@ class LearnedPattern:
     spans_s : of each example, when its gesture begins and ends, on its doodle's clock.
     average : the mean of the examples' gestures.
     average_sequence : its tokens; empty if it took no part.
-    mandatory : the tokens of each place that every string has, from first to last; empty where
-        there are several ways.
-    ways : how many ways of drawing the gesture the pattern is a choice of.
+    mandatory : the tokens of each mandatory column, from first to last; empty if there are several
+        ways.
+    ways : number of ways of drawing the gesture that the pattern is a choice of.
     """
 
     pattern: Pattern
@@ -63,13 +63,12 @@ def learn_pattern(
 ) -> LearnedPattern:
     """Learn the pattern of a gesture from examples (section 4.3 of the paper [1]_).
 
-    The examples and their average doodle are tokenized; what all sequences share is mandatory, and
-    all else optional (`generalized`). Where they share no movement in common, though each has some
-    with another, the pattern is a choice of several ways to draw the gesture (`ways_of`). Every
-    example, and the average, is so accepted. Rest before
-    and after the gesture is no part of it, and a pause within is optional where an example has
-    one. The average of one example says nothing new, and one that shares nothing with its
-    examples (which differ in time or side) is like none of them: these take no part.
+    The examples and their average doodle are tokenized. Tokens that all sequences share are
+    mandatory, and all others optional (`generalized`). If all share no movement, though each
+    shares some with another, the pattern is a choice of several ways to draw the gesture
+    (`ways_of`). So every example, and the average, is accepted. Rest before and after the gesture
+    is ignored, and a pause within is optional if an example has one. The average is left out if
+    there is one example, or if it shares nothing with its examples (which differ in time or side).
 
     Parameters
     ----------

@@ -14,19 +14,19 @@ from smd.geometry.arrays import FloatArray, IntArray, frozen_array
 from smd.geometry.rotations import rotate
 
 BLOCK_S = 2.0
-"""Within a block the centre may drift at a speed of its own, and errors hang together."""
+"""Within a block the centre may drift at a constant velocity, and errors are correlated."""
 
 FEWEST_BLOCKS = 6
-"""A short recording is cut into shorter ones: errors are judged by how blocks differ."""
+"""A short recording gets shorter blocks: errors are estimated from the variation of blocks."""
 
 LEAST_TURN_RAD = np.pi
-"""Half a turn in all; with less, a hand's unrest weighs as much as its turning."""
+"""Half a turn in all; with less, a hand's tremor and drift are as large as its rotation."""
 
 LEAST_ACROSS = 0.2
 """Turning across the main axis must be this share of all turning (root mean square)."""
 
 LARGEST_ERROR_M = 0.01
-"""A lever that is known no better than this says nothing about a figurine of 17 cm."""
+"""Largest standard error: a lever less precise than this is useless for a figurine of 17 cm."""
 
 _ROUNDS = 30  # it settles in about ten
 _SPREAD_OF_MEDIAN = 1.538  # median length of 3 normal components with deviation 1

@@ -1,4 +1,4 @@
-"""Loose ends: how a hand sets out and arrives belongs to the action in between."""
+"""Loose ends: slow runs at the start and stop of a movement belong to the action in between."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from smd.recognition.tokens import TokenRun
 def with_loose_ends(segments: Sequence[Segment], runs: Sequence[TokenRun]) -> list[Segment]:
     """Return the segments with the unexplained runs beside them that belong to them.
 
-    A hand that sets out or arrives is slow, and its direction uncertain: a run that goes the way
-    of the one it leads to, and is not the largest, is of one movement with the rest.
+    A hand that starts or stops is slow, and its direction uncertain. A run in about the direction
+    of its neighbour, unless it is the largest, is part of the same movement.
     """
     grown: list[Segment] = []
     for i, segment in enumerate(segments):

@@ -14,10 +14,10 @@ class Match:
     Attributes
     ----------
     action : its name; None for no action at all.
-    distance : what it costs to see the gesture so; for None, what no action may cost.
+    distance : the cost of the gesture as this action; for None, that of seeing no action.
     confidence : in [0, 1], adding up to 1 over all matches of a gesture.
-    most : what the action may cost to be accepted; infinite for None.
-    terms : what the distance is made of, by name, weights included; empty for None.
+    most : the threshold of the action; infinite for None.
+    terms : the terms of the distance, by name, weights included; empty for None.
     """
 
     action: str | None

@@ -32,7 +32,7 @@ class WeightedToken:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """What several aligned sequences have side by side.
+    """The tokens of several aligned sequences in one column.
 
     Attributes
     ----------
@@ -58,11 +58,11 @@ class Column:
 
 
 def token_distances(tokens: Sequence[Token], others: Sequence[Token]) -> FloatArray:
-    """Return ``(n, m)``: how unlike n tokens are to m others, in [0, 1].
+    """Return ``(n, m)``: the distances of n tokens from m others, in [0, 1].
 
-    The mean over translation and rotation, where either token has them, of the angle between the
-    directions, 1 from a right angle on and where one of them has none. Stillness is like nothing
-    else.
+    It is the mean over translation and rotation, where either token has them, of the angle between
+    the directions: 1 from a right angle on, and where one token has no direction. Stillness is at
+    distance 1 from all else.
     """
     total, parts = np.zeros((2, len(tokens), len(others)))
     for ours, theirs in zip(bins_of(tokens), bins_of(others), strict=True):

@@ -1,4 +1,4 @@
-"""Proposals: stretches of a doodle that may be an action, as the automata see them."""
+"""Proposals: stretches of a doodle that may be an action according to the automata."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from smd.recognition.costs import RunCosts
 from smd.recognition.tokens import TokenRun
 
 MOST_STROKES = 4
-"""How many strokes, with rests between them, one gesture has at most (a bow that is held has 2)."""
+"""Largest number of strokes, with rests between, in one gesture (a bow that is held has 2)."""
 
 STIR = 0.05
-"""Share of a gesture's largest run below which the runs at its ends are no part of it."""
+"""Share of a gesture's largest run below which the runs at its ends are cut off."""
 
 
 class Proposal(NamedTuple):
@@ -33,11 +33,11 @@ class Proposal(NamedTuple):
 
 
 def explaining(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> list[Proposal]:
-    """Return, for each action and each end, the stretch that explains most.
+    """Return, for each action and each end, the stretch with the largest gain.
 
-    One pass over the runs carries the states of all automata. A stretch explains what its runs
-    would cost if they were left unexplained, less what it costs to read them as the action; only
-    those that explain anything are proposed.
+    One pass over the runs carries the states of all automata. The gain of a stretch is the cost of
+    its runs if left unexplained, less the cost of reading them as the action. Only stretches with
+    a positive gain are proposed.
     """
     found: list[Proposal] = []
     if not len(bank):
@@ -61,8 +61,8 @@ def explaining(bank: Bank, runs: Sequence[TokenRun], prices: RunCosts) -> list[P
 def rest_to_rest(is_still: BoolArray) -> list[tuple[int, int]]:
     """Return each stretch of runs from one rest to another, a few strokes long.
 
-    A pattern learned from three examples does not know all ways to draw its action, and where
-    they fall short, a rest still tells where a gesture begins and ends.
+    A pattern learned from three examples does not cover all ways to draw its action. Where it
+    fails, rests still mark where a gesture begins and ends.
     """
     firsts, lasts = runs_of_true(~is_still).T.tolist()
     return [(first, last) for i, first in enumerate(firsts) for last in lasts[i : i + MOST_STROKES]]
@@ -71,10 +71,9 @@ def rest_to_rest(is_still: BoolArray) -> list[tuple[int, int]]:
 def without_stir(
     stretches: Sequence[tuple[int, int]], runs: Sequence[TokenRun]
 ) -> list[tuple[int, int]]:
-    """Return stretches without what the hand hardly stirs at their ends.
+    """Return stretches without the stir at their ends.
 
-    That is still or below `STIR`: a rest that is not quite one must not move where a gesture
-    begins and ends.
+    Stir is still or below `STIR`: an imperfect rest must not shift the ends of a gesture.
     """
     extent = [run.travel_heights + run.turn_rad for run in runs]
     meant = []

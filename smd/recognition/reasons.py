@@ -28,18 +28,18 @@ MEASURED = {
 """What is said of a measure below the examples', and above."""
 
 FAR_OUT = 2.5
-"""A measure that is so many times its spread from the examples' is named beside what costs most:
-it counts for little, and is what a person can mend."""
+"""A measure so many standard deviations from the examples' mean is named beside the most expensive
+term: it has a small weight, but a person can correct it."""
 
 USUAL_WRONG = 0.15
-"""Share of the tokens that is wrong in a gesture that is recognised."""
+"""Usual share of wrong tokens in a gesture that is recognised."""
 
 
 def reason_of(match: Match, action: Action, measures: FloatArray) -> str:
-    """Return what kept an action out, from what it was weighed by.
+    """Return what kept an action from being recognised.
 
-    Named are what costs most beside what an example usually costs, and the measure that is
-    farthest from the examples', where it is far.
+    It names the term with the largest excess over its usual cost, and the measure that is farthest
+    from the examples', if it is far.
 
     Parameters
     ----------

@@ -36,14 +36,14 @@ class Recognizer:
     figure_height_m
         Height of the figurine that the prop stands for.
     costs
-        What the tokens of a span are weighed by.
+        The costs of segmentation by tokens.
     token_costs
-        What it costs to take one token for another; the paper's unit costs if absent.
+        The costs of substituting one token for another; the paper's unit costs if absent.
     tolerance
-        Factor on what every action may cost: below 1 more is rejected, above it less.
+        Factor on every action's threshold: below 1 more is rejected, above it less.
     intent
-        Whether movement is meant, whatever doodles say; by default a doodle that says when the
-        user drew was drawn, and any other is free.
+        Overrides whether movement is meant; by default a doodle that says when the user drew was
+        drawn, and any other is free.
     """
 
     def __init__(
@@ -88,8 +88,8 @@ class Recognizer:
     def rank(self, doodle: Doodle) -> list[Match]:
         """Weigh every action, and none, for a doodle that holds one gesture, the best first.
 
-        Rest before and after the gesture is no part of it. A doodle that never moves is none. That
-        it holds a gesture says that it was meant, unless the recognizer's intent is another.
+        Rest before and after the gesture is ignored. A doodle that never moves matches no action.
+        The movement counts as meant, since it is a gesture, unless the recognizer has an intent.
 
         Raises
         ------
@@ -121,9 +121,8 @@ class Recognizer:
         intent
             Whether the movement is meant; by default the recognizer's own, or free.
         spans_s
-            When each stretch begins and ends; it is weighed from the start of the run that is
-            there to the end of the one that is. What costs more than `WORTH_NAMING` times what it
-            may is not weighed to the end, and infinite.
+            When each stretch begins and ends; it is widened to whole runs. Costs above
+            `WORTH_NAMING` times the threshold are not computed to the end, and infinite.
         """
         starts_s = np.array([run.start_s for run in runs])
         stretches = []
@@ -152,10 +151,10 @@ class Recognizer:
         *,
         intent: Intent | None = None,
     ) -> RecognitionStream:
-        """Return what finds the actions while a doodle is being drawn, sample by sample.
+        """Return a stream that finds the actions while a doodle is drawn, sample by sample.
 
-        The listener is called with each piece of smoothed motion. Whether the movement is meant is
-        said once; by default it is the recognizer's own intent, or free.
+        The listener is called with each piece of smoothed motion. The intent holds for the whole
+        stream; by default it is the recognizer's own, or free.
         """
         return RecognitionStream(
             _Remembering(self, intent),
@@ -204,10 +203,10 @@ class Recognizer:
         intent: Intent | None = None,
         known: Terms | None = None,
     ) -> list[Detection]:
-        """Return the detections of chosen stretches, with what else each could be.
+        """Return the detections of chosen stretches, with alternatives.
 
-        Each is of the action that it costs least to see there, of those that may cost so much.
-        What they are weighed by is taken from ``known`` where it is there, and else written down.
+        Each is of the cheapest action below its threshold. ``known`` is a cache of the terms, read
+        and extended.
         """
         if not self._actions.has_examples.any():
             return self._tokens.named(motion, runs, segments)

@@ -1,4 +1,4 @@
-"""Rehearsal: a performer's own examples beside others', and what they change."""
+"""Rehearsal: a performer's own examples beside others', and their effect."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from smd.smoothing import smooth
 
 @dataclass(frozen=True, slots=True)
 class Likeness:
-    """What a take looks like, beside the action that was asked for.
+    """The matches of a take, and the action that was asked for.
 
     Attributes
     ----------
@@ -62,9 +62,9 @@ class Likeness:
         return self.share(best) <= 1.0 and asked.distance > PLAINLY * best.distance
 
     def share(self, match: Match | None = None) -> float:
-        """Return what a match costs, by default the action's, over what it may.
+        """Return the cost of a match, by default the action's, over its threshold.
 
-        It passes up to 1.
+        Up to 1 it is accepted.
         """
         match = self.ranked[self.place - 1] if match is None else match
         return match.distance / match.most
@@ -72,14 +72,14 @@ class Likeness:
 
 @dataclass(frozen=True, slots=True)
 class Gain:
-    """What a rehearsal changed for one action.
+    """The effect of a rehearsal on one action.
 
     Attributes
     ----------
     action : its name.
-    before : what each take looked like to the library as it was.
-    after : the same to the library with all takes but the one that is looked at; empty where
-        there is only one of the action, which cannot be judged by itself.
+    before : the matches of each take with the library as it was.
+    after : the same with all takes added but the one that is tested (leave-one-out); empty if
+        there is only one take of the action.
     """
 
     action: str
@@ -88,7 +88,7 @@ class Gain:
 
 
 def likeness(recognizer: Recognizer, action: str, doodle: Doodle) -> Likeness:
-    """Return what a take of an action looks like.
+    """Return the matches of a take of an action.
 
     Raises
     ------
@@ -162,10 +162,10 @@ def gains(
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
 ) -> list[Gain]:
-    """Return what takes change when they are added to actions, by action.
+    """Return the effect of adding takes to actions, by action.
 
-    Each take is judged by a library that has never seen it: before, by the actions as they are;
-    after, with all other takes added.
+    Each take is tested on a library without it: before, on the actions as they are; after, with
+    all other takes added (leave-one-out).
 
     Parameters
     ----------

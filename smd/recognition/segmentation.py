@@ -59,13 +59,13 @@ def cheapest_cut(
     Parameters
     ----------
     read
-        ``(n, s)``: what it costs to take token i for one that a state of the bank reads.
+        ``(n, s)``: the cost of reading token i at each state of the bank.
     skip
-        ``(n,)``, what it costs to leave token i out of a segment around it.
+        ``(n,)``, the cost of deleting token i from a segment around it.
     unexplained
-        ``(n,)``, what it costs to leave token i outside of all segments; at most ``skip``.
+        ``(n,)``, the cost of leaving token i outside of all segments; at most ``skip``.
     action
-        What each segment costs besides its distance.
+        The cost of each segment besides its distance.
 
     References
     ----------

@@ -17,11 +17,11 @@ class Group:
 
 
 def simplified(groups: Iterable[Group]) -> tuple[Group, ...]:
-    """Return groups, one after another, that accept the same strings; none less would do.
+    """Return groups, one after another, that accept the same strings; none of them is redundant.
 
-    An optional group beside a group that has all its tokens says nothing: whatever it could read,
-    the other one reads too. Nor does a mandatory one beside its equal, since a token may be read
-    as both. (Beside a larger one it does say something: that one of its own tokens stands there.)
+    An optional group beside a group that has all its tokens is redundant: whatever it could read,
+    the other one reads too. So is a mandatory one beside its equal, since a token may be read as
+    both. (Beside a larger one it is not: it demands that one of its own tokens occurs there.)
     """
     kept = list(groups)
     while (at := _needless(kept)) is not None:

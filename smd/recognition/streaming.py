@@ -38,13 +38,13 @@ HORIZON_S = 0.5
 """A detection is final this long after its last movement, at the latest."""
 
 BLOCK_S = 0.25
-"""The stream looks at what has come this often, and when a detection falls due."""
+"""Interval of looks; the stream also looks when a detection falls due."""
 
 SOON_S = 0.1
-"""And this soon, where the next detection to fall due is not over yet."""
+"""Interval to the next look, if the next detection to fall due is not over yet."""
 
 MEMORY_S = 4.0
-"""Movement that nothing has explained for this long is given up."""
+"""Movement that nothing has explained for this long is dropped."""
 
 STEP_S = 1.0 / 50.0
 """Most time between two samples for which the horizon is kept."""
@@ -60,11 +60,11 @@ class RecognitionStream:
     """Recognises actions while they are drawn.
 
     Samples are smoothed as they come (`SmoothingStream`). Every `BLOCK_S`, and when a detection
-    falls due, the motion that is not decided yet is cut into tokens and given to the spotter, as if
-    it were all there is. Detections that ended ``horizon_s`` ago (less two samples) are final; the
-    rest is decided again next time. So a detection is final as soon as the offline pass over what
-    has come says that it ended so long ago. ``docs/streaming.md`` tells where that differs from the
-    offline pass over everything.
+    falls due, the undecided motion is cut into tokens and given to the spotter, as if it were the
+    whole recording. Detections that ended ``horizon_s`` ago (less two samples) are final; the rest
+    is decided again next time. So a detection is final as soon as the offline pass over the samples
+    so far finds that it ended so long ago. ``docs/streaming.md`` explains where that differs from
+    the offline pass over everything.
 
     Parameters
     ----------

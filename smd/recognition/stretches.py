@@ -24,10 +24,10 @@ def dense_stretches(
 ) -> list[tuple[int, int]]:
     """Return stretches of n runs of all lengths that actions have, close together.
 
-    Real hands hardly rest between gestures, and a pattern learned from a few examples does not know
-    every way into one. So a gesture may be anywhere. Ends lie at multiples of a step from the
-    clock's zero, that a doodle which is still growing is cut as the whole one is. A stretch is of
-    the runs whose middles lie in it, less the stillness at its ends.
+    Real hands hardly rest between gestures, and a pattern learned from a few examples does not
+    cover every way into one. So a gesture may be anywhere. Ends lie at multiples of a step from the
+    clock's zero, so that a doodle that is still growing is cut like the whole one. A stretch has
+    the runs whose middles lie in it, without the stillness at its ends.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Suggestions: movement that no detection explains, and the actions that it is most like."""
+"""Suggestions: movement that no detection explains, and the most similar actions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from smd.recognition.tokens import STILL, TokenRun
 from smd.recognition.traits import traits_of_parts
 
 REST_S = 0.25
-"""Stillness from which movement before and after it is seen as two."""
+"""Stillness that separates two movements."""
 
 SHORTEST_S, LONGEST_S = 0.3, 3.0
 """How long what is seen as one gesture lasts; of the shipped actions, 0.8 to 3.0 s is usual."""
@@ -39,13 +39,13 @@ are kept, the likeliest. A stretch takes about 10 ms to weigh."""
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """An action that a stretch is like.
+    """An action that a stretch resembles.
 
     Attributes
     ----------
     action : its name.
-    cost : of seeing the stretch so.
-    most : what that may cost for the action to be recognised.
+    cost : of the stretch as this action.
+    most : the threshold of the action.
     reason : what kept it out, in a few words.
     """
 
@@ -89,7 +89,7 @@ def suggestions(
     *,
     figure_height_m: float = DEFAULT_FIGURE_HEIGHT_M,
 ) -> list[Unexplained]:
-    """Return what one performer did that no detection explains and that is like an action.
+    """Return a performer's movements that no detection explains and that resemble an action.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""TokenCosts: what it costs to take one token for another."""
+"""TokenCosts: the costs of substituting one token for another."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _STEPS = 64.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TokenCosts(Frozen):
-    """What it costs to take one token for another, in edits.
+    """The costs of substituting one token for another, in edits.
 
-    The costs of translation and of rotation add up, to 1 at most (as a token too many, or one
-    missing, costs), and are rounded up to a whole multiple of 1/64. So two small tables say what
-    one of all pairs of tokens would.
+    The costs of translation and of rotation are added, to 1 at most (the cost of an insertion or a
+    deletion), and rounded up to a whole multiple of 1/64. So two small tables replace one of all
+    pairs of tokens.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class TokenCosts(Frozen):
             object.__setattr__(self, part, matrix)
 
     def between(self, tokens: Iterable[Token], others: Iterable[Token]) -> FloatArray:
-        """Return ``(n, m)``, the cost of taking each of n tokens for each of m others."""
+        """Return ``(n, m)``, the cost of substituting each of n tokens for each of m others."""
         codes = codes_of(others)
         return self.to_nearest(codes_of(tokens), codes, np.arange(len(codes)))
 
@@ -84,7 +84,7 @@ def unit_costs() -> TokenCosts:
 
 @cache
 def graded_costs(*, far_rad: float = np.pi, begun: float = 0.5) -> TokenCosts:
-    """Return costs by how far apart two tokens' directions are.
+    """Return costs that grow with the angle between two tokens' directions.
 
     Translation and rotation each cost the angle between their directions, as a share of
     ``far_rad`` (more costs no more), or ``begun`` where only one of the two tokens moves (turns)

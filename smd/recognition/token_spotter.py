@@ -30,17 +30,17 @@ def recognize(
     The runs are cut into actions and unexplained rest, by default at the least total cost: every
     action costs ``costs.action`` and its runs' edit distance to its pattern, every unexplained run
     in proportion to the movement in it, unexplained stillness nothing. Little or aimless movement
-    is therefore cheaper to leave alone than to explain. An action then takes in the small runs
-    that lead into it or out of it.
+    is therefore cheaper to leave unexplained than to explain. An action is then extended over the
+    small runs that lead into it or out of it.
 
-    The distance is Levenshtein's (section 4.2 of the paper [1]_) with two prices that depend on
-    the run: leaving a run out costs less than one edit when there is little movement in it, and
-    taking it for the token that it is costs something when it is faint.
+    The distance is Levenshtein's (section 4.2 of the paper [1]_) with two costs that depend on
+    the run: deleting a run costs less than one edit if there is little movement in it, and
+    reading it as its own token costs something if it is faint.
 
-    The confidence weighs the chosen action against the other ones and against nothing, over the
+    The confidence compares the chosen action with the other ones and with no action, over the
     same runs: with the cost d of each it is ``exp(-s d_chosen) / sum(exp(-s d))``, where s is
-    ``costs.sharpness``, and nothing costs its unexplained runs less ``costs.action``. It ranks
-    how clear-cut spans are; it is not a measured probability.
+    ``costs.sharpness``, and no action costs its unexplained runs less ``costs.action``. It is a
+    ranking score, not a measured probability.
 
     Parameters
     ----------

@@ -17,25 +17,25 @@ from smd.recognition.tokens import Token, TokenRun, bins_of_codes, code_of_bins
 
 @dataclass(frozen=True, slots=True)
 class Thresholds:
-    """What counts as meant.
+    """Thresholds of the movement that becomes tokens.
 
     Attributes
     ----------
     still : the paper's epsilon, 0.05. Its sum of squares needs one unit, so speed is counted in
         figure heights per second: a figurine that moves by its own height moves as visibly as one
         that turns by a radian. Alone, it is 0.039 m/s for a figurine of 0.175 m, or 0.22 rad/s.
-    moving_on : movement that has begun goes on down to this share of that speed; lower, and the
-        drift of a resting hand would count.
-    onset : a movement begins where its speed has risen to this share of its peak, and ends alike,
-        as far as it rises and falls without a break; so a slow gesture is not cut shorter than a
-        quick one.
-    turning_rad_s : turning begins here and goes on down to epsilon. A hand that walks a figurine
-        wobbles faster than epsilon, so that turning could not begin there.
-    lever_heights : distance from the prop's centre, in figure heights, at which people take the
-        prop to turn it. Moving that turning about such a point explains is not meant: half a
+    moving_on : movement that has begun lasts until its speed falls to this share of that speed; if
+        it were lower, the drift of a resting hand would count.
+    onset : a movement begins where its speed has risen to this share of its peak, and ends where it
+        has fallen to it, as far as the rise and the fall are unbroken; so a slow gesture is not cut
+        shorter than a quick one.
+    turning_rad_s : rotation begins at this speed and lasts until it falls to epsilon. A hand that
+        walks a figurine wobbles faster than epsilon, so the onset must be higher.
+    lever_heights : distance from the prop's centre, in figure heights, at which people hold the
+        prop to turn it. Translation that rotation about such a point explains is removed: half a
         height reaches every point of the figurine.
-    swing_m : an arm's length. Turning no faster than an arm that swings about the shoulder would
-        on the same path is not meant.
+    swing_m : an arm's length. Rotation no faster than that of an arm that swings about the
+        shoulder on the same path is removed.
     stay_rad : another direction must be nearer than the current one by this angle to replace it.
     shortest_s : only longer runs are kept ("repeated more than twice" at 60 Hz, section 4.3).
     """
@@ -62,9 +62,9 @@ def tokenize(
 ) -> tuple[TokenRun, ...]:
     """Cut a motion into runs of one token each (section 4.1 of the paper [1]_).
 
-    The prop's velocity is read along its own axes and its angular velocity in the body's, so where
-    the user stands and faces does not matter. Each is put in the nearest of 26 directions, or in
-    none where it is not meant: too slow, or explained by the other one (turning about a point
+    The prop's velocity is taken along its own axes and its angular velocity in the body's, so it
+    does not matter where the user stands and faces. Each is quantized to the nearest of 26
+    directions, or to none if it is too slow or explained by the other one (rotation about a point
     beside the prop's centre moves it; an arm that swings turns it).
 
     Parameters

@@ -1,4 +1,4 @@
-"""Traits: what verification looks at in one gesture."""
+"""Traits: what verification compares of one gesture."""
 
 from __future__ import annotations
 
@@ -30,28 +30,28 @@ from smd.recognition.embedding import (
 )
 
 SAMPLES = 40
-"""Points a course has: one every 50 ms of a gesture of 2 s. 64 are no more accurate."""
+"""Samples of a course: one every 50 ms of a gesture of 2 s. 64 are no more accurate."""
 
 COURSES = ("shape_heading", "shape_prop", "flow_heading", "flow_prop")
-"""What is aligned: where the gesture goes and how it moves on, each seen twice: from the heading
-frame (up is the world's, front the prop's) and from the prop's own."""
+"""What is aligned: the poses (shape) and the velocities (flow) of a gesture, each in two frames:
+the heading frame (up is the world's, front the prop's) and the prop's own."""
 
 MEASURES = ("duration", "extent", "path", "turning")
-"""What is compared as a number, by its logarithm: how long the gesture lasts, the root mean square
-distance of its positions from their mean, the length of its way, and how far it turns in all."""
+"""Numbers that are compared, as logarithms: the duration, the root mean square distance of the
+positions from their mean, the length of the path, and the total rotation."""
 
 _SMALLEST_EXTENT = 0.17
 _SLOWEST = 0.3
 _SLOWEST_RAD_S = 0.5
-"""What counts as no movement, in figure heights, heights and radians a second: smaller sizes are
-not blown up to the common one, or noise would have a shape."""
+"""Added to sizes before division, in figure heights, heights and radians a second: small movements
+are not scaled up to the common size, or noise would have a shape."""
 
 _LEVER = 0.25
-"""Figure heights from the prop's centre at which hands turn it. How far that carries the prop is
-added to its sizes: what turning may explain is no size of its own."""
+"""Figure heights from the prop's centre about which hands turn it. The translation that this causes
+is added to the size that shapes are divided by."""
 
 _RADIAN_IN_SHAPE = 0.4
-"""How far turning by a radian is, in a shape whose positions lie at distance 1 from their mean."""
+"""Length of a radian, in a shape whose positions lie at distance 1 from their mean."""
 
 _RADIAN_IN_FLOW = 0.5
 FLOORS = (0.05, 0.1, 0.2, 0.1)
@@ -59,11 +59,11 @@ FLOORS = (0.05, 0.1, 0.2, 0.1)
 
 
 class Traits(NamedTuple):
-    """What verification looks at in a gesture, or with a leading axis in several.
+    """What verification compares of a gesture, or with a leading axis of several.
 
     Attributes
     ----------
-    courses : by the names in `COURSES`, each ``(…, SAMPLES, d)``: free of place, heading, and size.
+    courses : in the order of `COURSES`, each ``(…, SAMPLES, d)``; place, heading and size removed.
     measures : (…, 4), logarithms in the order of `MEASURES`.
     """
 
@@ -105,7 +105,7 @@ def traits_of_parts(
     figure_height_m
         Height of the figurine that the prop stands for; lengths are counted in it.
     every
-        Only every so many-th sample of the courses is made, and looked at.
+        Only every so many-th sample of the courses is computed.
     """
     spans = np.asarray(spans_s, dtype=np.float64)
     time_s = motion.time_s
@@ -154,13 +154,13 @@ def traits_of_parts(
 def fitted(
     shapes: FloatArray, target: FloatArray, *, facing_rad: float, askew_rad: float
 ) -> FloatArray:
-    """Return shapes turned to fit another one better, within what hands leave open.
+    """Return shapes rotated to fit another one better, within the tolerances of hands.
 
-    A hand shows where it faces only roughly, and holds the prop a little askew. Both are constant
-    turns, about the world's up axis and along the prop's own axes, and are taken away, up to a
-    limit. The first brings simultaneous points nearest to each other: it is the angle of the sum
-    of their products, as complex numbers of the level plane. The second follows from the sum of
-    the cross products of simultaneous axes, which for one constant turn is its sine times its axis.
+    A hand faces only roughly where its user means to, and holds the prop a little askew. Both are
+    constant rotations, about the world's up axis and along the prop's own axes, and are removed, up
+    to a limit. The first minimizes the distances of simultaneous points: it is the angle of the sum
+    of their products, as complex numbers of the ground plane. The second follows from the sum of
+    the cross products of simultaneous axes: for one constant rotation, its sine times its axis.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def fitted(
     target
         ``(m, n, 12)``, or ``(n, 12)`` for all.
     facing_rad, askew_rad
-        The most that each may take away; non-negative.
+        Limits of the two rotations; non-negative.
 
     Returns
     -------

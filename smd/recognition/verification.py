@@ -15,27 +15,27 @@ from smd.recognition.traits import COURSES, MEASURES, SAMPLES, Traits
 from smd.recognition.warping import Templates
 
 TERMS = ("tokens", *COURSES, *MEASURES)
-"""What a gesture is weighed by: its distance to the pattern, its courses, its measures."""
+"""The terms of a cost: the distance to the pattern, the courses, the measures."""
 
 WEIGHTS = np.array([1.0, 5.0, 0.5, 2.9, 1.7, 0.6, 0.8, 0.2, 0.3])
-"""What each term counts; ``docs/verification.md`` says where they come from."""
+"""Weight of each term; ``docs/verification.md`` says where they come from."""
 WEIGHTS.flags.writeable = False
 
 WRONG = float(WEIGHTS[0])
-"""What a gesture costs of whose tokens all are wrong, whatever the examples say."""
+"""Cost of the tokens if all are wrong."""
 
 GLANCE = 2
-"""Courses of proposals are warped by every second sample, in a quarter of the time. That is good
-enough to choose stretches; what they are called is decided by all samples."""
+"""Courses of proposals are warped at every second sample, in a quarter of the time. That suffices
+to choose stretches; their names are decided with all samples."""
 
 GLIMPSE = 4
-"""Most stretches are like nothing. They are told by two courses at every fourth sample."""
+"""Most stretches resemble no action. Two courses at every fourth sample suffice to reject them."""
 
 GLIMPSE_COURSES = ("shape_heading", "flow_heading")
 """The two that weigh most."""
 
 GLIMPSE_ROOM = 1.1
-"""What courses at every fourth sample cost may be so many times what they may at every second one.
+"""Factor on the threshold for courses at every fourth sample.
 ``docs/verification.md`` says how rarely that loses a stretch."""
 
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
@@ -47,21 +47,21 @@ _CHEAP_FIRST = (
 _TELLING_FIRST = (_SHAPE, *_CHEAP_FIRST[:-1])
 
 PAIRS = 2048
-"""Of an action and a gesture, that are weighed together: what lies in between takes some 30 MiB
-then, however long the recording."""
+"""Pairs of an action and a gesture that are weighed together: intermediate arrays take some 30 MiB
+then, for any length of recording."""
 
 _FREEDOM = 4.0
-"""Of Student's distribution, which measures are taken to follow: what is far out is hardly more
-unlikely than what is out."""
+"""Degrees of freedom of Student's t, which measures are assumed to follow: its heavy tails
+penalize far outliers hardly more than near ones."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verification(Frozen):
-    """What gestures must be like to be a library's actions.
+    """Compares gestures with the examples of a library's actions.
 
     Attributes
     ----------
-    exemplars : of each of a actions; None where there are no examples.
+    exemplars : one for each of ``a`` actions; None for an action without examples.
     """
 
     exemplars: tuple[Exemplar | None, ...]
@@ -108,14 +108,14 @@ class Verification(Frozen):
         most: FloatArray,
         every: int = 1,
     ) -> FloatArray:
-        """Return how unlike actions' examples gestures are, for p pairs of both.
+        """Return the terms of the costs of p pairs of an action and a gesture.
 
-        A course's term is its distance to the nearest example, as a multiple of what is usual; a
+        A course's term is its distance to the nearest example, as a multiple of the usual one; a
         measure's is the negative logarithm of Student's density about the examples' mean, 0 at
         its peak; the tokens' is the share that is wrong. Each is multiplied by its weight, and
-        none is negative. So a pair is left as soon as what is known, and what the rest costs at
-        least (`warping.Templates.at_least`), are more than ``most`` together; what was not
-        looked for is `inf`.
+        none is negative. So a pair is dropped as soon as its known terms, plus a lower bound of
+        the rest (`warping.Templates.at_least`), exceed ``most``; terms that were not computed are
+        `inf`.
 
         Parameters
         ----------
@@ -126,7 +126,7 @@ class Verification(Frozen):
         wrong
             ``(p,)``, the edits from the action's pattern as a share of the tokens.
         most
-            ``(p,)``, a sum above it is of no interest.
+            ``(p,)``, thresholds; pairs with a larger sum are dropped.
         every
             Courses are warped by every so many-th sample: 1 or `GLANCE`.
 
@@ -186,11 +186,11 @@ class Verification(Frozen):
     def promising(
         self, gestures: Traits, action: IntArray, gesture: IntArray, most: FloatArray
     ) -> BoolArray:
-        """Return ``(p,)``, which pairs of an action and a gesture are worth a closer look.
+        """Return ``(p,)``, which pairs of an action and a gesture are to be weighed in full.
 
-        What is known at a glimpse is at most `GLIMPSE_ROOM` times ``most``: the measures, and
-        `GLIMPSE_COURSES` at every fourth sample. The gestures have no others; parameters are those
-        of `terms`.
+        Their cost at a glimpse is at most `GLIMPSE_ROOM` times ``most``: that of the measures, and
+        of `GLIMPSE_COURSES` at every fourth sample. The gestures have only these samples;
+        parameters are those of `terms`.
         """
         courses = {i: gestures.courses[i] for i in map(COURSES.index, GLIMPSE_COURSES)}
         central = self.central[:, ::GLIMPSE]
@@ -212,7 +212,7 @@ class Verification(Frozen):
         return np.asarray(room >= 0.0)
 
     def measured(self, measures: FloatArray) -> FloatArray:
-        """Return ``(g, a)``, what the measures ``(g, 4)`` of g gestures alone cost, as actions."""
+        """Return ``(g, a)``, the cost of the measures ``(g, 4)`` alone of g gestures, by action."""
         deviation = (measures[:, None] - self.centre) / self.spread
         return np.asarray(oddness(deviation) @ WEIGHTS[_MEASURES])
 

@@ -1,4 +1,4 @@
-"""Warping: how far many courses are from the nearest examples of their actions, all at once."""
+"""Warping: distances of many courses to the nearest examples of their actions, all at once."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from smd.recognition.alignment import pair_distances, widest_shift
 Single: TypeAlias = NDArray[np.float32]
 
 LANES = 8192
-"""Pairs of a course and an example that are warped together: enough that array operations cost
-more than calling them, few enough that their costs stay in the processor's cache."""
+"""Pairs of a course and an example that are warped together: enough to amortize the overhead of
+array operations, few enough that their costs stay in the processor's cache."""
 
 CELLS = 1 << 17
-"""So many costs of pairs of samples are worked out at a time: they stay in the cache as well."""
+"""Costs of pairs of samples that are computed at a time: they stay in the cache as well."""
 
 ONE_THREAD = 1 << 18
 """Multiplications in a matrix product up to which OpenBLAS leaves it to one thread. Products of
@@ -35,14 +35,14 @@ _ROUNDING = float(np.finfo(np.float32).eps)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Templates(Frozen):
-    """Templates for dynamic time warping: courses of the examples of a actions, laid out.
+    """Templates for dynamic time warping: courses of the examples of several actions.
 
     Attributes
     ----------
     courses : of each action ``(m, n, d)``, n and d the same for all, n at least 4.
-    band : how far warping may shift, as a share of n, at least 1 / n.
-    factors : of each action ``(m,)``, what the distance to each example is multiplied by, at
-        least 1; where empty, by nothing.
+    band : largest shift of the warping, as a share of n, at least 1 / n.
+    factors : of each action ``(m,)``, the factors on the distances to its examples, at least 1;
+        if empty, all are 1.
     """
 
     courses: tuple[FloatArray, ...]
@@ -78,7 +78,7 @@ class Templates(Frozen):
         self.nearest(every[:1], np.zeros(1, np.int64), np.zeros(1))
 
     def at_least(self, courses: FloatArray, action: IntArray) -> FloatArray:
-        """Return ``(p,)``, what the `nearest` example of each is away at least, in far less time.
+        """Return ``(p,)``, a lower bound of the `nearest` distance of each, in far less time.
 
         Each sample is paired with one within reach, and so is no nearer than the box around all
         of those of all examples (Keogh's bound [1]_, one for all examples).
@@ -103,18 +103,18 @@ class Templates(Frozen):
 
         Each distance is multiplied by the example's factor.
 
-        First all examples are warped in single precision. What may be nearest, as far as its
-        rounding tells, is then warped in double precision.
+        First all examples are warped in single precision. Those that may be nearest, within its
+        rounding error, are then warped in double precision.
 
         Parameters
         ----------
         courses
             ``(p, n, d)``.
         action
-            ``(p,)``, whose examples each is held against; the faster the fewer changes there
-            are from one to the next.
+            ``(p,)``, the action whose examples each is compared with; it is faster the fewer
+            changes there are from one to the next.
         most
-            ``(p,)``, a distance above it is of no interest and comes out as infinity.
+            ``(p,)``, thresholds; a larger distance comes out as infinity.
         """
         nearest = np.full(len(courses), np.inf)
         for part in self._slabs(action):
@@ -198,7 +198,7 @@ def _size(courses: FloatArray) -> FloatArray:
 
 
 def _in_rows(factors: Sequence[FloatArray]) -> FloatArray:
-    """Return ``(a, m)``, the factors of a actions with at most m examples, 1 beyond the last."""
+    """Return the factors ``(a, m)`` of actions with at most m examples, 1 beyond the last."""
     rows = np.ones((len(factors), max(map(len, factors))))
     for row, own in zip(rows, factors, strict=True):
         row[: len(own)] = own
@@ -236,7 +236,7 @@ def _least_in_reach(values: FloatArray, shift: int) -> FloatArray:
 
 
 def _least_sums(costs: Iterable[Single], width: int, lanes: int) -> Single:
-    """Return ``(lanes,)``, the least sum of costs on a way from the first pair to the last one.
+    """Return ``(lanes,)``, the least sum of costs on a path from the first pair to the last one.
 
     The table of dynamic time warping, row by row, all lanes at once::
 

@@ -1,4 +1,4 @@
-"""Weighing: what it costs to see a stretch of a doodle as each action, or as none."""
+"""Weighing: the cost of a stretch of a doodle as each action, or as none."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from smd.recognition.tokens import TokenRun
 from smd.recognition.verification import TERMS, WRONG
 
 Terms: TypeAlias = dict[tuple[float, float], FloatArray]
-"""What stretches are weighed by, tokens apart, ``(a, 9)`` for the actions with examples, by start
-and end in seconds."""
+"""Terms of stretches, without tokens, ``(a, 9)`` for the actions with examples, by start and end in
+seconds."""
 
 
 def matches(
@@ -44,10 +44,10 @@ def matches(
     intent
         Whether the movement is meant.
     beyond
-        What costs more than so many times what its action may comes out as infinity, where the
-        action has examples.
+        Costs above so many times the action's threshold come out as infinity, if the action has
+        examples.
     known
-        What stretches are weighed by is taken from here, and else written down.
+        Cache of the terms of stretches, read and extended.
     """
     most = actions.most[intent]
     wrong = actions.wrong_share(stretches, runs, run_costs(runs, actions.costs))
@@ -71,7 +71,7 @@ def _terms(
     spans_s: Sequence[tuple[float, float]],
     most: FloatArray,
 ) -> FloatArray:
-    """Return the terms of spans, tokens apart, ``(g, a, 9)`` for the actions with examples."""
+    """Return the terms of spans, without tokens, ``(g, a, 9)`` for the actions with examples."""
     action = np.flatnonzero(actions.has_examples)
     if not spans_s:
         return np.zeros((0, len(action), len(TERMS)))
@@ -88,9 +88,8 @@ def _terms(
 def _ranked(actions: CompiledActions, terms: FloatArray, most: FloatArray) -> list[Match]:
     """Return the matches of one gesture, the best first, from its terms ``(a, 9)``.
 
-    The costs are negative logarithms of likelihoods, up to a constant, so the confidence is
-    each one's share of the likelihood; nothing at all is as likely as the best action at the
-    most that it may cost.
+    The costs are negative log likelihoods, up to a constant, so the confidence is each one's share
+    of the likelihood; no action is as likely as the best action at its threshold.
     """
     cost = terms.sum(axis=1)
     nothing = float(most[int(np.argmin(cost))])

@@ -24,7 +24,7 @@ class Person:
     spread : of size and pace from gesture to gesture, standard deviation of the logarithm.
     aim_rad : error of a gesture's heading and elevation, standard deviation.
     askew_rad : standing tilt of the prop in the hand, about (left, front).
-    overlap : share of a stroke that is gone when the next one begins is one less this.
+    overlap : share of a stroke during which the next one is drawn already, from 0 to 1.
     bob_m : how far a walking hand rises and falls.
     grip_m : from the point about which the hand turns the prop to its centre, in its frame.
     swing_rad_per_m : how much the arm's swing turns the prop: 3 x 3, rotation per displacement.
