@@ -59,7 +59,7 @@ def write_together(writers: Mapping[Path, Callable[[Path], None]]) -> None:
     Raises
     ------
     ExportError
-        If any of them cannot be written; what was there before is there still.
+        If any of them cannot be written; files that were there before are unchanged.
     """
     with tempfile.TemporaryDirectory() as safe, ExitStack() as undone:
         for index, path in enumerate(writers):
