@@ -64,7 +64,7 @@ def _usd() -> StageWriter:
 
 
 FORMATS = (ExportFormat((".usda", ".usdc", ".usdz"), _usd, _usd),)
-"""A file's suffix says which one it is to have."""
+"""Those that a performance is written in; a file's suffix says in which."""
 
 
 def write(
