@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from actions_library.folder import load_library
+    from actions_library.importers.usd_ground import read_terrain
     from actions_library.stage_frame import StageFrame
     from exporters import write
     from smd.acting.performance import Performance
@@ -44,6 +45,7 @@ _HOME = {
     "parse": "smd.pipeline",
     "read_recording": "smd.formats",
     "read_score": "smd.score_file",
+    "read_terrain": "actions_library.importers.usd_ground",
     "smooth": "smd.smoothing",
     "write": "exporters",
     "write_recording": "smd.formats",
@@ -67,6 +69,7 @@ __all__ = [
     "parse",
     "read_recording",
     "read_score",
+    "read_terrain",
     "smooth",
     "write",
     "write_recording",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any
@@ -46,7 +47,8 @@ class Parser:
     Raises
     ------
     ScoreError
-        If the figure height is not positive, or ``intent`` or ``unexplained`` is neither.
+        If the figure height or ``tolerance`` is not positive, or ``intent`` or ``unexplained`` is
+        neither.
     """
 
     library: ActionLibrary | Cast
@@ -67,6 +69,8 @@ class Parser:
             )
         if self.intent not in (None, *INTENTS):
             raise ScoreError(f"intent: expected {' or '.join(INTENTS)}, got {self.intent!r}")
+        if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
+            raise ScoreError(f"tolerance: expected a positive number, got {self.tolerance!r}")
         Score((), figure_height_m=self.figure_height_m)  # raises unless it is positive
         cast = cast_of(self.library)
         libraries = dict.fromkeys((cast.shared, *cast.own.values()))

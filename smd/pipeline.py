@@ -59,8 +59,8 @@ def parse(
     Raises
     ------
     ScoreError
-        If the figure height is not positive, ``intent`` or ``unexplained`` is neither, or a device
-        is not in the recording.
+        If the figure height or ``tolerance`` is not positive, ``intent`` or ``unexplained`` is
+        neither, or a device is not in the recording.
     LibraryError
         If a cast has a library for a device that is not in the recording.
     """

@@ -35,7 +35,7 @@ FORMATS = (
     ImportFormat("glTF", (".glb", ".gltf"), _gltf),
     ImportFormat("USD", (".usd", ".usda", ".usdc", ".usdz"), _usd, has_skeletons=True),
 )
-"""A file's suffix says which one it has."""
+"""Those of characters and clips; a file's suffix says which one it has."""
 
 SUFFIXES = tuple(suffix for each in FORMATS for suffix in each.suffixes)
 """Of the files that can be imported."""

@@ -18,8 +18,8 @@ from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.poses import Poses
 from smd.doodle import Doodle
-from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import sign_continuous
+from smd.errors import TransferError
+from smd.geometry.arrays import FloatArray, frozen_array
 from smd.score import Phrase
 
 
@@ -133,20 +133,37 @@ def grounded_actor(
     Raises
     ------
     TransferError
-        As in `act`.
+        As in `act`; if the rate is not positive; or if poses, footwork and rise do not fit the
+        skeleton, the legs and each other.
     """
+    poses, footwork = _fitting(character, poses, footwork, legs, rate_hz)
     count = len(poses.rotation_xyzw)
     rise = rise or level(count)
+    if len(rise.flies) != count:
+        raise TransferError(f"rise: expected {count} frames, as poses have, got {len(rise.flies)}")
     ground = None
     if terrain is not None:
         way, time_s = poses.translation_m[:, 0, [0, 2]], Frames(start_s, rate_hz, count).time_s
         ground = slope(terrain, way, rise.flies, time_s, rate_hz, name)
     done = grounded(character.skeleton, poses, footwork, legs, rate_hz, rise, ground)
-    rotation = sign_continuous(done.rotation_xyzw)
-    return Actor(
-        name,
-        character,
-        Poses(rotation, done.translation_m),
-        phrases=tuple(phrases),
-        doodles=tuple(doodles),
+    return Actor(name, character, done, phrases=tuple(phrases), doodles=tuple(doodles))
+
+
+def _fitting(
+    character: Character, poses: Poses, footwork: Footwork, legs: Sequence[Leg], rate_hz: float
+) -> tuple[Poses, Footwork]:
+    """Return poses and footwork as arrays, or raise TransferError where they do not fit."""
+    if not (np.isfinite(rate_hz) and rate_hz > 0.0):
+        raise TransferError(f"rate_hz: expected a positive number, got {rate_hz!r}")
+    joints = len(character.skeleton)
+    rotation = frozen_array("rotation_xyzw", poses.rotation_xyzw, (None, joints, 4), TransferError)
+    count = len(rotation)
+    if count == 0:
+        raise TransferError("poses: expected at least one frame, got none")
+    of_joints = (count, joints, 3)
+    translation = frozen_array("translation_m", poses.translation_m, of_joints, TransferError)
+    shape = (count, len(legs))
+    return Poses(rotation, translation), Footwork(
+        frozen_array("stands", footwork.stands, shape, TransferError, np.bool_),
+        frozen_array("pivot_rad", footwork.pivot_rad, shape, TransferError),
     )

@@ -15,7 +15,11 @@ from smd.character.poses import Poses
 from smd.doodle import Doodle
 from smd.errors import TransferError
 from smd.geometry.arrays import frozen_array
+from smd.geometry.rotations import sign_continuous
 from smd.score import Phrase
+
+UNIT_TOLERANCE = 1e-3
+"""How much longer or shorter than 1 a rotation's quaternion may be: that of `Clip`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,7 +30,8 @@ class Actor(Frozen):
     ----------
     name : unique in its performance; a device's where it acts out what somebody drew.
     character : what is seen.
-    poses : local, a frame each, rotations sign-continuous; joint 0 is the ground root in the world.
+    poses : local, a frame each, at least one; rotations of unit length, made sign-continuous; joint
+        0 is the ground root in the world.
     phrases : what it performs, in time order, where that has names.
     doodles : what it was drawn with, if it was, in metres of the character's world.
     """
@@ -41,6 +46,12 @@ class Actor(Frozen):
         j = len(self.character.skeleton)
         rotation, translation = self.poses
         rotation = frozen_array("rotation_xyzw", rotation, (None, j, 4), TransferError)
+        if len(rotation) == 0:
+            raise TransferError(f"actor {self.name!r}: expected at least one frame, got none")
+        if np.abs(np.linalg.norm(rotation, axis=-1) - 1.0).max() > UNIT_TOLERANCE:
+            raise TransferError(f"actor {self.name!r}: rotation_xyzw: expected unit length")
+        rotation = sign_continuous(rotation)
+        rotation.flags.writeable = False
         shape = (len(rotation), j, 3)
         translation = frozen_array("translation_m", translation, shape, TransferError)
         object.__setattr__(self, "poses", Poses(rotation, translation))
@@ -77,6 +88,9 @@ class Performance(Frozen):
     def __post_init__(self) -> None:
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
             raise TransferError(f"rate_hz: expected a positive number, got {self.rate_hz!r}")
+        if not np.isfinite(self.start_s):
+            raise TransferError(f"start_s: expected a finite number, got {self.start_s!r}")
+        object.__setattr__(self, "actors", tuple(self.actors))
         if not self.actors:
             raise TransferError("performance: expected at least one actor, got none")
         if len({len(actor) for actor in self.actors}) > 1:
@@ -85,7 +99,6 @@ class Performance(Frozen):
         for name in names:
             if names.count(name) > 1:
                 raise TransferError(f"performance: actor {name!r} appears twice")
-        object.__setattr__(self, "actors", tuple(self.actors))
         object.__setattr__(self, "warnings", tuple(self.warnings))
         object.__setattr__(self, "source", MappingProxyType(dict(self.source)))
 

@@ -133,3 +133,9 @@ def test_a_library_without_examples_is_said_to_be_one():
     assert score.performers[0].phrases
     assert any("no action has examples" in line for line in score.warnings)
     assert not any("examples" in line for line in smd.parse(recording, library).warnings)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1.0, float("nan"), float("inf")])
+def test_a_tolerance_is_positive(tolerance):
+    with pytest.raises(ScoreError, match="tolerance: expected a positive number, got"):
+        smd.Parser(smd.load_library(), tolerance=tolerance)

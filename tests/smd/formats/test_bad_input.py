@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from smd.errors import RecordingError
 from smd.formats import read_recording
+from smd.formats.reading import READABLE
 
 HEADER = "t,x,y,z,qx,qy,qz,qw\n"
 GOOD = "0.0,1,2,3,0,0,0,1\n0.01,1.1,2,3,0,0,0,1\n"
@@ -225,7 +226,7 @@ def test_what_is_no_file_is_named(tmp_path):
 def test_an_unknown_suffix_is_named(tmp_path):
     path = tmp_path / "take.mp4"
     path.write_text(HEADER + GOOD)
-    suffixes = ".csv .json .tum .bsor .txt .usd .usda .usdc .usdz"
+    suffixes = " ".join(READABLE)
     assert refused(path) == f"expected a file with suffix {suffixes}, found '.mp4'"
     (tmp_path / "take").write_text(HEADER + GOOD)
     assert refused(tmp_path / "take") == f"expected a file with suffix {suffixes}, found no suffix"
