@@ -98,6 +98,7 @@ def sections() -> list[Section]:
                 "smd.acting.act": ["Frames", "act", "grounded_actor"],
                 "smd.acting.move": ["Footwork", "Move", "Playable"],
                 "smd.acting.legs": ["feet_of", "legs_of"],
+                "smd.transfer.repertoire": ["Piece", "piece_of"],
                 "smd.acting.performance": ["Actor"],
                 "smd.acting.terrain": ["Terrain"],
             },

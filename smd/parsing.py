@@ -75,6 +75,8 @@ class Parser:
         cast = cast_of(self.library)
         libraries = dict.fromkeys((cast.shared, *cast.own.values()))
         follows = self.unexplained == "follow"
+        if isinstance(self.devices, str):
+            raise ScoreError(f"devices: expected a list of names, got {self.devices!r} alone")
         if self.devices is not None:
             object.__setattr__(self, "devices", tuple(self.devices))
         object.__setattr__(self, "_cast", cast)

@@ -20,6 +20,7 @@ PRINTED = {
     "edit_a_score": r"corrected: +sneak .* leap",
     "effort_of_any_body": r"0.3 s: time \+(.|\n)*1.6 s: time -",  # sudden, then sustained
     "own_character": r"hurrah: 2.00 s, in place",
+    "poses_to_usd": r"4 steps of 0.80 m",
     "recording_to_usd": r"rival: bow, walk, side_step_left, turn_right, throw",
     "stream": r"did jump (.|\n)*did fly (.|\n)*did turn_right (.|\n)*did fly ",
     "teach_a_gesture": r"taken for zorro",

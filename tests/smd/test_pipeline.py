@@ -139,3 +139,8 @@ def test_a_library_without_examples_is_said_to_be_one():
 def test_a_tolerance_is_positive(tolerance):
     with pytest.raises(ScoreError, match="tolerance: expected a positive number, got"):
         smd.Parser(smd.load_library(), tolerance=tolerance)
+
+
+def test_one_device_is_named_in_a_list_too():
+    with pytest.raises(ScoreError, match="devices: expected a list of names, got 'left' alone"):
+        smd.Parser(smd.load_library(), devices="left")
