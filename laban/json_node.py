@@ -68,11 +68,12 @@ def parse_json(data: bytes | str, *, keys_once: bool = False) -> Node:
         return Node(json.loads(data, object_pairs_hook=_once if keys_once else None))
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
-        raise Fault(place, "JSON", error.msg) from None
+        there = shown(data[error.pos]) if error.pos < len(data) else "the end"
+        raise Fault(place, "JSON", f"{there} ({error.msg[:1].lower()}{error.msg[1:]})") from None
     except RecursionError:
         raise Fault("", "JSON", "JSON nested too deeply") from None
-    except ValueError as error:  # a whole number of thousands of digits
-        raise Fault("", "JSON", error) from None
+    except ValueError:  # Python reads no whole number of more than some thousand digits
+        raise Fault("", "JSON", "a number of too many digits") from None
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

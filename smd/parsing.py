@@ -30,7 +30,8 @@ class Parser:
 
     It is made once, which compiles the libraries, and parses any number of recordings. It pickles
     as what it was made of: a few hundred bytes with the shipped library, the examples of its
-    actions with another one. A process that gets it compiles anew, once for each library.
+    actions with another one. Another process compiles the shipped library once; another library,
+    each time that a parser arrives. So give a pool's processes the parser once, as they start.
 
     Attributes
     ----------

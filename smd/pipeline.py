@@ -36,19 +36,8 @@ def parse(
         What was drawn.
     library
         The actions to recognise; their clips are not read. In a `Cast`, each device's own.
-    figure_height_m
-        Height of the figurine that the prop stands for, positive.
-    devices
-        Those that perform; by default all but headsets (or the headset, where it is alone).
-    tolerance
-        How unlike an action's examples a gesture may be, positive: below 1 more is rejected,
-        above it less (docs/sessions.md has figures).
-    intent
-        Whether movement was meant: "drawn", where a trigger was held, or "free", where nothing
-        says so. By default a doodle that says when the user drew was drawn, and any other is free.
-    unexplained
-        What to make of travel in which nothing is recognised: "leave" it, or "follow" it, with
-        phrases in the gait that suits, marked as implied; clips of gaits are then read.
+    figure_height_m, devices, tolerance, intent, unexplained
+        Those of `smd.parsing.Parser`.
 
     Returns
     -------

@@ -148,13 +148,13 @@ def test_a_recognizer_pickles_as_what_it_was_made_of():
     actions = [library.action("wave"), library.action("bow")]
     one = Recognizer(actions, tolerance=0.8)
     other = pickle.loads(pickle.dumps(one))
-    doodle = gesture_doodle("bow")
+    doodle = swinging()
     assert other.names == one.names
     assert other.rank(doodle) == one.rank(doodle)
 
 
-def gesture_doodle(action: str) -> smd.Doodle:
-    """One of the shipped stories' doodles would do; this one is a wave of a stick."""
+def swinging() -> smd.Doodle:
+    """A prop that swings to and fro for one and a half seconds."""
     time_s = np.linspace(0.0, 1.5, 136)
     place = np.stack([0.1 * np.sin(6.0 * time_s), 0.0 * time_s, 0.0 * time_s], axis=-1)
-    return smd.Doodle(time_s, place, np.tile([0.0, 0.0, 0.0, 1.0], (136, 1)), action)
+    return smd.Doodle(time_s, place, np.tile([0.0, 0.0, 0.0, 1.0], (136, 1)), "prop")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -57,23 +58,15 @@ class Recognizer:
         intent: Intent | None = None,
     ) -> None:
         every = tuple(actions if isinstance(actions, Iterable) else actions.actions)
+        options: dict[str, Any] = {
+            "figure_height_m": figure_height_m,
+            "costs": costs,
+            "token_costs": token_costs,
+            "tolerance": tolerance,
+        }
         self.intent = intent
-        self._made = partial(
-            Recognizer,
-            every,
-            figure_height_m=figure_height_m,
-            costs=costs,
-            token_costs=token_costs,
-            tolerance=tolerance,
-            intent=intent,
-        )
-        self._actions = compile_actions(
-            every,
-            figure_height_m=figure_height_m,
-            costs=costs,
-            token_costs=token_costs,
-            tolerance=tolerance,
-        )
+        self._made = partial(Recognizer, every, intent=intent, **options)
+        self._actions = compile_actions(every, **options)
         self._tokens = TokenSpotter(self._actions.bank, costs)  # where there are no examples
 
     def __reduce__(self) -> tuple[Callable[[], Recognizer], tuple[()]]:

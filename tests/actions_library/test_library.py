@@ -212,7 +212,7 @@ def test_a_wrong_entry_is_named_with_its_file(library, tmp_path, change, named):
     ("text", "said"),
     [
         ("[" * 100_000, "expected JSON, found JSON nested too deeply"),
-        ('{"schema":', "line 1, column 11: expected JSON, found Expecting value"),
+        ('{"schema":', "line 1, column 11: expected JSON, found the end (expecting value)"),
         ("[]", "expected an object, found a list"),
     ],
 )

@@ -76,12 +76,12 @@ def test_a_list_of_numbers_says_which_is_none():
 @pytest.mark.parametrize(
     ("data", "said"),
     [
-        (b"", "^line 1, column 1: expected JSON, found Expecting value$"),
-        (b'{"a": 1,\n]', "^line 2, column 1: expected JSON, found "),
+        (b"", r"^line 1, column 1: expected JSON, found the end \(expecting value\)$"),
+        (b'{"a": 1,\n]', r"^line 2, column 1: expected JSON, found .\]. \("),
         (b"\xff", "^expected UTF-8 text, found byte 0xff at 0$"),
         ("[1]".encode("utf-16-le"), "^expected UTF-8 text, found zero bytes"),
         (b"[" * 100_000, "^expected JSON, found JSON nested too deeply$"),
-        (b"1" * 5000, "^expected JSON, found Exceeds the limit"),
+        (b"1" * 5000, "^expected JSON, found a number of too many digits$"),
     ],
 )
 def test_what_is_no_json_is_a_fault(data, said):

@@ -146,7 +146,7 @@ def refused(path: Path, **options) -> str:
         (
             "{",
             "line 1, column 2: expected JSON, "
-            "found Expecting property name enclosed in double quotes",
+            "found the end (expecting property name enclosed in double quotes)",
         ),
         ('{"a":' * 100_000, "expected JSON, found JSON nested too deeply"),
         ('{"schema": 1, "x": 2}', "expected JSON with devices that have poses, found 'schema, x'"),
