@@ -5,8 +5,10 @@ import csv
 import pytest
 from pxr import Usd
 
-from exporters.phrases import PHRASES_KEY, write_phrase_table
+from exporters.figures import read_scene
+from exporters.phrases import PHRASES_KEY, phrases_of, write_phrase_table
 from exporters.usd import write_usd
+from smd.errors import ExportError
 
 
 def test_each_character_names_its_phrases_in_seconds_and_time_codes(performance, tmp_path):
@@ -35,3 +37,41 @@ def test_the_table_has_a_row_a_phrase(performance, tmp_path):
     ]
     assert (rows[0]["start_frame"], rows[0]["end_frame"]) == ("5", "22")
     assert (rows[0]["time"], rows[0]["weight"], rows[0]["space"]) == ("0.500", "-0.250", "")
+
+
+def test_phrases_are_read_back_as_they_were_written(performance, tmp_path):
+    write_usd(performance, tmp_path / "a.usdc")
+    stage = Usd.Stage.Open(str(tmp_path / "a.usdc"))
+    prims = stage.GetPrimAtPath("/Performance/Actors").GetChildren()
+    assert [phrases_of(prim) for prim in prims] == [a.phrases for a in performance.actors]
+
+
+@pytest.mark.parametrize(
+    "entries",
+    [
+        {"p0000": 3},
+        {"p0000": {"action": "walk"}},
+        {"p0000": {"action": "walk", "start_s": 2.0, "end_s": 1.0, "confidence": 1.0}},
+        {"p0000": {"action": "walk", "start_s": "x", "end_s": 1.0, "confidence": 1.0}},
+        {
+            "p0000": {
+                "action": "walk",
+                "start_s": 0.0,
+                "end_s": 1.0,
+                "confidence": 1.0,
+                "effort": {"mood": 1.0},
+            }
+        },
+    ],
+)
+def test_phrases_of_somebody_else_are_one_line_that_names_file_and_prim(
+    performance, entries, tmp_path
+):
+    path = tmp_path / "a.usdc"
+    write_usd(performance, path)
+    stage = Usd.Stage.Open(str(path))
+    prim = stage.GetPrimAtPath("/Performance/Actors").GetChildren()[0]
+    prim.SetCustomDataByKey(PHRASES_KEY, entries)
+    stage.GetRootLayer().Save()
+    with pytest.raises(ExportError, match=r"a\.usdc: /Performance/Actors/left_hand: smd:phrases"):
+        read_scene(path)
