@@ -51,9 +51,10 @@ def contacts(
     level = np.gradient(position_m[..., ::2], 1.0 / rate_hz, axis=0)
     speed = np.linalg.norm(level, axis=-1)
     how = np.maximum(above / (LOW * leg_m), speed / (SLOW_PER_S * leg_m)) / tolerance
-    touching = np.stack([_with_hysteresis(column) for column in how.T], axis=-1)
+    touching = np.empty(how.shape, dtype=bool)
     shortest = max(round(SHORTEST_S * rate_hz), 1)
-    for column in touching.T:
+    for column, own in zip(touching.T, how.T, strict=True):
+        column[:] = _with_hysteresis(own)
         _without_shorter(column, shortest, value=False)
         _without_shorter(column, shortest, value=True)
     return touching

@@ -53,3 +53,7 @@ def test_the_shipped_clips_labels_are_found_again():
         wanted += int(authored.sum())
     assert right / found > 0.85
     assert right / wanted > 0.98
+
+
+def test_without_joints_nothing_touches():
+    assert contacts(np.zeros((5, 0, 3)), [], 30.0, 1.0).shape == (5, 0)
