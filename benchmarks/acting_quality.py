@@ -229,7 +229,7 @@ def lateness_s(seen: Played, doodles: Sequence[Doodle]) -> FloatArray:
         steps = np.linalg.norm(np.diff(place - place[:, :1], axis=0), axis=-1).mean(axis=-1)
         drawn = drawn_between(doodles, phrase.start_s, phrase.end_s)
         if drawn is not None and len(steps) > 1:
-            late.append(_halfway_s(seen.time_s[rows][1:], steps) - _halfway_s(*drawn))
+            late.append(halfway_s(seen.time_s[rows][1:], steps) - halfway_s(*drawn))
     return np.array(late)
 
 
@@ -247,7 +247,7 @@ def drawn_between(
     return None
 
 
-def _halfway_s(time_s: FloatArray, steps: FloatArray) -> float:
+def halfway_s(time_s: FloatArray, steps: FloatArray) -> float:
     way = np.cumsum(steps)
     return float(np.interp(0.5 * way[-1], way, time_s))
 
