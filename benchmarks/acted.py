@@ -20,7 +20,7 @@ from smd.acting.flight import flights, in_air
 from smd.acting.move import Move, knots
 from smd.acting.moving import rows_of
 from smd.acting.transitions import TRANSITION_S
-from smd.character.clip import Clip
+from smd.character.clip import STAGES, Clip
 from smd.character.kinematics import forward_kinematics
 from smd.doodle import Recording
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
@@ -47,6 +47,8 @@ class Beat(NamedTuple):
     off_m : RMS distance of the ground root from the drawn path, put where the root begins.
     late_s : how much later than the prop the body is halfway through what is played once; NaN of
         a cycle, or where the prop is lost.
+    moved_s : how much later its strike, the end of a clip's execution, is than in the drawn phrase,
+        played evenly; NaN of a cycle, and of what takes several moves.
     """
 
     drawn: Phrase
@@ -55,6 +57,7 @@ class Beat(NamedTuple):
     way_m: float
     off_m: float
     late_s: float
+    moved_s: float
 
     @property
     def gait(self) -> Move[Piece] | None:
@@ -202,7 +205,7 @@ def _beats(seen: quality.Played, part: Part, recording: Recording) -> Iterator[B
             fine = seen.path.at(np.arange(start_s, phrase.end_s, FINE_S))
             off_m = _rms(_distances_m(_root(seen, moves), fine - fine[0] + moves[0].root_m[0]))
         late_s = _late_s(seen, moves, phrase, recording)
-        yield Beat(phrase, moves, drawn_m, way_m, off_m, late_s)
+        yield Beat(phrase, moves, drawn_m, way_m, off_m, late_s, _moved_s(moves, phrase))
         before = moves[-1] if moves else None
 
 
@@ -238,6 +241,16 @@ def _late_s(
     _, place = forward_kinematics(seen.actor.character.skeleton, *local)
     steps = np.linalg.norm(np.diff(place - place[:, :1], axis=0), axis=-1).mean(axis=-1)
     return quality.halfway_s(seen.time_s[rows][1:], steps) - quality.halfway_s(*drawn)
+
+
+def _moved_s(moves: Sequence[Move[Piece]], phrase: Phrase) -> float:
+    """Return how much later a clip's execution ends than in the phrase, played evenly."""
+    if len(moves) != 1 or moves[0].piece.clip.cyclic:
+        return np.nan
+    move, clip = moves[0], moves[0].piece.clip
+    struck = float(clip.stage_end_frames[STAGES.index("execution")])
+    struck_s = float(np.interp(struck, move.frame, move.time_s))
+    return struck_s - phrase.start_s - struck / (len(clip) - 1) * (phrase.end_s - phrase.start_s)
 
 
 def _planned_off_m(seen: quality.Played) -> FloatArray:

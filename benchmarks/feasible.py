@@ -18,19 +18,20 @@ explain, and how many a minute are above 5 cm.
 
 Guards, beside what was drawn. ``gaits`` that get anywhere, and share of them that step faster than
 people can (5 %). ``late``: how much later than the prop a body is halfway through what is played
-once: median, and share of those at most 0.1 and 0.2 s off. ``plan``: RMS distance of the ground
+once: median, and share of those at most 0.1 and 0.2 s off; ``moved``: how far, at most, its strike
+(the end of its execution) is from where the drawn phrase has it when it is played evenly, and share
+of those within 0.1 s. ``plan``: RMS distance of the ground
 root from the planned path (2 cm). ``path``: from the drawn one, as a share of the phrase's way: RMS
 of all phrases, and worst (10 %). ``way``: its shortest and longest over the drawn one (0.9 to 1.1).
 ``lasts``: longest take over its recording (1). ``lost``: phrases missing or in another order (0).
 
-With ``--phrases N``: which actions have the frames above 8 m/s² and more than 35 cm outside, and
-the N worst phrases, for each line.
+With ``--phrases N``: the takes and clips one by one, and for each line the N actions that have
+most frames above the goals, and the N worst moves (`benchmarks.culprits`).
 """
 
 from __future__ import annotations
 
 import argparse
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -38,21 +39,13 @@ from typing import Any
 
 import numpy as np
 
-from actions_library.adoption.character import rest_pose
 from actions_library.folder import load_library
-from actions_library.importers import import_file
 from actions_library.library import Library
-from benchmarks.acted import Acted, acted, kind_of, on_hands
-from benchmarks.physics import (
-    Mechanics,
-    anatomy_of,
-    leg_length_m,
-    mechanics_of,
-)
+from benchmarks.acted import Acted, acted
+from benchmarks.culprits import print_culprits
 from benchmarks.process import machine
+from benchmarks.references import Physical, own_pace, real_takes
 from benchmarks.transfer import DATA, TAKES, Cast, simulated, stories
-from smd.character.clip import Clip
-from smd.character.kinematics import forward_kinematics
 from smd.errors import SmdError
 from smd.formats import read_recording
 from smd.geometry.arrays import BoolArray, FloatArray
@@ -66,97 +59,11 @@ TIMINGS: dict[str, dict[str, Any]] = {"drawn": {}}
 LOOSE = 3.0
 """Tolerance with which the sessions hold 30 gait phrases and more."""
 
-ACC_M_S2, ZMP_M, FAR_M = 8.0, 0.35, 0.20
-"""The goals above which a frame counts as impossible; the last one's share has a goal."""
+FAR_M = 0.20
+"""The zero moment point is farther outside in few frames: a goal is on their share."""
 
 POP_M = 0.05
 """What is above it is seen as a jump: real takes and clips stay below."""
-
-STILL_M = 0.05
-"""A take in which the mass centre stays within this is a pose."""
-
-HELD_S, CYCLES = 0.5, 3
-"""How long a clip is held before and after, and how often a cycle is repeated."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Physical:
-    """A movement's mechanics.
-
-    Attributes
-    ----------
-    bound : (n,) frames in which the speed over the ground has a bound: no flight and no run.
-    hovers : (n,) frames of what never touches the ground.
-    on_feet : (n,) frames in which nothing but the feet can bear.
-    """
-
-    mechanics: Mechanics
-    bound: BoolArray
-    hovers: BoolArray
-    on_feet: BoolArray
-
-
-def real_takes(folder: Path, library: Library) -> Iterator[tuple[str, Physical]]:
-    """Yield takes of people that have legs, arms and feet, each file's contents once."""
-    known = set()
-    for path in sorted(folder.glob("clips/bvh/*.bvh")):
-        try:
-            imported = import_file(path)
-        except SmdError:
-            continue
-        anatomy = anatomy_of(imported.skeleton)
-        take = imported.animations[0] if imported.animations else None
-        if anatomy is None or take is None or path.read_bytes() in known:
-            continue
-        known.add(path.read_bytes())
-        # The first frames are left out: some files begin with one of the rest pose.
-        poses = take.rotation_xyzw[2:], take.translation_m[2:]
-        if len(poses[0]) < 2:
-            continue
-        _, place = forward_kinematics(imported.skeleton, *poses)
-        place = place * (_legs_m(library) / leg_length_m(anatomy, place[0]))
-        soles = [anatomy.joint[f"{side}_toes"] for side in ("left", "right")]
-        place[..., 1] -= np.percentile(place[:, soles, 1].min(axis=1), 5.0)
-        found = mechanics_of(place, np.arange(len(place)) / take.rate_hz, anatomy)
-        if found is not None and np.ptp(found.centre_m, axis=0).max() > STILL_M:
-            none = np.zeros(len(found.time_s), dtype=bool)
-            yield path.stem, Physical(found, ~found.flies, none, found.upright)
-
-
-def _legs_m(library: Library) -> float:
-    skeleton = library.character.skeleton
-    anatomy = anatomy_of(skeleton)
-    assert anatomy is not None
-    return leg_length_m(anatomy, rest_pose(skeleton)[1])
-
-
-def own_pace(library: Library) -> Iterator[tuple[str, Physical]]:
-    """Yield the shipped clips as they are."""
-    anatomy = anatomy_of(library.character.skeleton)
-    assert anatomy is not None
-    for name in library.clips:
-        clip = library.clip(name)
-        place = _repeated(clip) if clip.cyclic else _places(clip)
-        held = round(HELD_S * clip.rate_hz)
-        if not clip.cyclic:
-            place = np.concatenate([[place[0]] * held, place, [place[-1]] * held])
-        found = mechanics_of(place, np.arange(len(place)) / clip.rate_hz, anatomy)
-        if found is not None:
-            hovers = np.full(len(found.time_s), not clip.contacts.any())
-            bound = ~(found.flies | hovers | (clip.cyclic and found.flies.any()))
-            on_feet = found.upright & ~hovers & (not on_hands(clip))
-            yield name, Physical(found, bound, hovers, on_feet)
-
-
-def _places(clip: Clip) -> FloatArray:
-    return forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)[1]
-
-
-def _repeated(clip: Clip) -> FloatArray:
-    """Return where the joints of a cycle are, several times over; it goes straight on."""
-    place = _places(clip)
-    way = place[-1, 0] - place[0, 0]
-    return np.concatenate([place[:-1] + k * way for k in range(CYCLES)])
 
 
 def sessions(folder: Path, library: Library, **options: Any) -> Iterator[Cast]:
@@ -201,6 +108,8 @@ GUARDS = (
     NumberColumn("late", "s", 6, 2),
     NumberColumn("<0.1", "%", 4, 0),
     NumberColumn("<0.2", "%", 4, 0),
+    NumberColumn("moved", "s", 5, 2),
+    NumberColumn("<0.1", "%", 4, 0),
     NumberColumn("plan", "cm"),
     NumberColumn("path", "%"),
     NumberColumn("worst", "", 5, 0),
@@ -252,6 +161,7 @@ def guards_of(performers: Sequence[Acted]) -> list[float]:
         if move.piece.gait is not None
     ]
     late = np.array([beat.late_s for beat in beats if not np.isnan(beat.late_s)])
+    moved = np.abs([beat.moved_s for beat in beats if not np.isnan(beat.moved_s)])
     ways = [beat for beat in beats if beat.drawn_m > NOWHERE_M]
     path = np.array([beat.off_m / beat.drawn_m for beat in ways])
     ratio = np.array([beat.way_m / beat.drawn_m for beat in ways])
@@ -262,6 +172,8 @@ def guards_of(performers: Sequence[Acted]) -> list[float]:
         _quantile(late, 0.5),
         100.0 * _mean(np.abs(late) <= 0.1),
         100.0 * _mean(np.abs(late) <= 0.2),
+        _quantile(moved, 1.0),
+        100.0 * _mean(moved <= 0.1),
         100.0 * float(np.sqrt(_mean(planned**2))),
         100.0 * float(np.sqrt(_mean(path**2))),
         100.0 * _quantile(path, 1.0),
@@ -295,66 +207,6 @@ def print_head() -> None:
 def figures_of(performer: Acted) -> Physical:
     """Return a performer's mechanics, with the frames that its moves bind."""
     return Physical(performer.mechanics, performer.bound, performer.hovers, performer.on_feet)
-
-
-def print_culprits(performers: Sequence[Acted], most: int) -> None:
-    """Print which actions have the impossible frames, and the worst phrases."""
-    frames: dict[tuple[str, str, str], list[tuple[FloatArray, FloatArray]]] = defaultdict(list)
-    phrases = []
-    for one in performers:
-        level, outside = one.mechanics.level_m_s2, one.mechanics.outside_m
-        for i, move in enumerate(one.moves):
-            rows = one.at == i
-            if not rows.any():
-                continue
-            kind, name = kind_of(move), move.piece.clip.name
-            for part, those in (("joins", rows & one.joins), ("inside", rows & ~one.joins)):
-                frames[kind, name, part].append((level[those], outside[those]))
-            at = int(np.argmax(np.where(rows, level, -1.0)))
-            worst = float(np.max(outside[rows], where=~np.isnan(outside[rows]), initial=0.0))
-            at_s = one.start_s + float(one.mechanics.time_s[at])
-            phrases.append((float(level[at]), worst, f"{one.name}: {kind} {name} at {at_s:.2f} s"))
-    joined = {
-        key: tuple(np.concatenate(part) for part in zip(*of, strict=True))
-        for key, of in frames.items()
-    }
-    for title, pick in (
-        ("by kind", lambda key: f"{key[0]}, {key[2]}"),
-        ("by action", lambda key: f"{key[0]} {key[1]}, {key[2]}"),
-    ):
-        _print_shares(title, joined, pick, most)
-    print("  worst phrases: acceleration, zero moment point outside")
-    for acc, worst, where in sorted(phrases, reverse=True)[:most]:
-        print(f"    {acc:6.1f} m/s2 {100.0 * worst:5.0f} cm  {where}")
-
-
-def _print_shares(
-    title: str,
-    frames: dict[tuple[str, str, str], tuple[FloatArray, ...]],
-    pick: Any,
-    most: int,
-) -> None:
-    """Print shares of all frames above the goals, of groups of frames, the largest first."""
-    groups: dict[str, list[tuple[FloatArray, ...]]] = defaultdict(list)
-    for key, of in frames.items():
-        groups[pick(key)].append(of)
-    level, outside = (
-        {name: np.concatenate([of[i] for of in all_of]) for name, all_of in groups.items()}
-        for i in (0, 1)
-    )
-    fast = {name: int(np.count_nonzero(of > ACC_M_S2)) for name, of in level.items()}
-    tips = {name: int(np.count_nonzero(of > ZMP_M)) for name, of in outside.items()}
-    frames_of_all = sum(len(of) for of in level.values())
-    print(f"  {title}: share of frames; of those above 8 m/s2, p99; of those above 35 cm, p95")
-    for name in sorted(fast, key=lambda n: fast[n] + tips[n], reverse=True)[:most]:
-        has = outside[name][~np.isnan(outside[name])]
-        print(
-            f"    {name:32s} {100.0 * len(level[name]) / frames_of_all:5.1f} %"
-            f" {100.0 * fast[name] / max(sum(fast.values()), 1):6.1f} %"
-            f" {_quantile(level[name], 0.99):6.1f} m/s2"
-            f" {100.0 * tips[name] / max(sum(tips.values()), 1):6.1f} %"
-            f" {100.0 * _quantile(has, 0.95):5.0f} cm"
-        )
 
 
 def main() -> None:

@@ -133,6 +133,8 @@ class Mechanics:
     flies : (n,) whether both feet are clear of the ground, and the mass centre higher than legs are
         long: who sits or lies down lifts feet too.
     upright : (n,) whether the pelvis is as high as that of a body on its feet.
+    carried_m_s2 : (n,) the root's acceleration over the ground, low-passed alike: what the body has
+        of its way alone.
     root_m_s : (n - 1,) speed of the root over the ground from frame to frame.
     pop_m : (n,) how far the trunk's joints are on the way of a frame off what the frames before
         and after it say (`pops_m`).
@@ -144,6 +146,7 @@ class Mechanics:
     outside_m: FloatArray
     flies: BoolArray
     upright: BoolArray
+    carried_m_s2: FloatArray
     root_m_s: FloatArray
     pop_m: FloatArray
 
@@ -184,17 +187,12 @@ def mechanics_of(position_m: FloatArray, time_s: FloatArray, anatomy: Anatomy) -
     time_s
         ``(n,)`` increasing.
     """
-    from scipy.signal import butter, filtfilt
-
     # - 1e-6: the last frame is left out, also where rounding would let it in.
     even_s = np.arange(time_s[0], time_s[-1] - 1e-6, 1.0 / RATE_HZ)
     if len(even_s) < LEAST_FRAMES:
         return None
     centre = _resampled(centre_of_mass(position_m, anatomy), time_s, even_s)
-    b, a = butter(ORDER, LOWPASS_HZ / (0.5 * RATE_HZ))
-    smooth = filtfilt(b, a, centre, axis=0)
-    velocity = np.gradient(smooth, 1.0 / RATE_HZ, axis=0)
-    acceleration = np.gradient(velocity, 1.0 / RATE_HZ, axis=0)
+    smooth, acceleration = _accelerated(centre)
     corners, height = _soles(position_m, anatomy)
     corners = _resampled(corners, time_s, even_s)
     height = _resampled(height, time_s, even_s)
@@ -214,9 +212,20 @@ def mechanics_of(position_m: FloatArray, time_s: FloatArray, anatomy: Anatomy) -
         outside_m=outside,
         flies=(height > CLEAR_M).all(axis=1) & (centre[:, 1] > legs_m),
         upright=pelvis[:, 1] > UPRIGHT * legs_m,
+        carried_m_s2=np.linalg.norm(_accelerated(root)[1], axis=-1),
         root_m_s=np.linalg.norm(np.diff(root, axis=0), axis=-1) * RATE_HZ,
         pop_m=pops_m(_resampled(position_m[:, anatomy.trunk], time_s, even_s)),
     )
+
+
+def _accelerated(place_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return places ``(n, c)`` low-passed, and their acceleration."""
+    from scipy.signal import butter, filtfilt
+
+    b, a = butter(ORDER, LOWPASS_HZ / (0.5 * RATE_HZ))
+    smooth = filtfilt(b, a, place_m, axis=0)
+    velocity = np.gradient(smooth, 1.0 / RATE_HZ, axis=0)
+    return smooth, np.gradient(velocity, 1.0 / RATE_HZ, axis=0)
 
 
 def zero_moment_point_m(centre_m: FloatArray, acceleration_m_s2: FloatArray) -> FloatArray:

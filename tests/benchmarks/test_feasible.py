@@ -9,19 +9,19 @@ import pytest
 
 from actions_library.folder import load_library
 from benchmarks.acted import acted, in_order, kind_of
+from benchmarks.culprits import frames_of, print_culprits
 from benchmarks.feasible import (
     GUARDS,
     PHYSICS,
     POP_M,
     figures_of,
     guards_of,
-    own_pace,
     physics_of,
-    print_culprits,
-    real_takes,
 )
+from benchmarks.references import own_pace, real_takes
 from benchmarks.transfer import stories
 from smd.score import Score
+from smd.transfer.pacing import EASED_S
 
 
 def named(columns, numbers):
@@ -78,6 +78,7 @@ def test_drawn_timing_keeps_what_was_drawn(duel):
     assert found["path"] < 1.0
     assert found["plan"] < 1.0
     assert found["way"] == pytest.approx(1.0, abs=0.05)
+    assert found["moved"] < EASED_S
     assert found["lasts"] <= 1.0
     assert found["lost"] == 0
     assert len(physics_of([figures_of(one) for one in performers])) == len(PHYSICS)
@@ -123,13 +124,22 @@ def test_the_culprits_are_named(duel, capsys):
     _, _, performers = duel
     print_culprits(performers, 3)
     lines = capsys.readouterr().out.splitlines()
-    assert sum("worst phrases" in line for line in lines) == 1
+    assert sum("worst moves" in line for line in lines) == 1
     worst = lines[-3:]
     assert all("m/s2" in line and " at " in line for line in worst)
     accelerations = [float(line.split()[0]) for line in worst]
     assert accelerations == sorted(accelerations, reverse=True)
     tops = [one.mechanics.level_m_s2.max() for one in performers]
     assert accelerations[0] == pytest.approx(max(tops), abs=0.05)
+
+
+def test_every_frame_is_somebodys(duel):
+    _, _, performers = duel
+    frames = frames_of(performers)
+    assert sum(map(len, frames.values())) == sum(len(one.at) for one in performers)
+    paused = np.concatenate([of for deed, of in frames.items() if deed.kind == "pause"])
+    acting = np.concatenate([of for deed, of in frames.items() if deed.kind != "pause"])
+    assert np.quantile(paused[:, 0], 0.99) < np.quantile(acting[:, 0], 0.99)
 
 
 def test_a_score_without_phrases_has_no_gaits_and_no_culprits(library, duel):

@@ -95,6 +95,7 @@ def test_a_body_that_speeds_up_needs_feet_as_far_behind_it(acceleration_m_s2):
     time_s = np.arange(0.0, 2.5, 1.0 / RATE_HZ)
     found = moved(along(2, 0.5 * acceleration_m_s2 * time_s**2))
     np.testing.assert_allclose(found.level_m_s2[MIDDLE], acceleration_m_s2, rtol=1e-3)
+    np.testing.assert_allclose(found.carried_m_s2, found.level_m_s2, atol=1e-9)
     point = zero_moment_point_m(found.centre_m, found.acceleration_m_s2)[MIDDLE, 1]
     lag = CENTRE[1] * acceleration_m_s2 / G
     np.testing.assert_allclose(found.centre_m[MIDDLE, 2] - point, lag, rtol=1e-3)
