@@ -96,6 +96,18 @@ def test_frames_belong_to_the_move_that_acts_then(duel):
         assert not (paused & np.array(within)).any()
 
 
+def test_a_move_joins_for_a_third_of_a_phrase_and_no_longer_than_a_transition(duel):
+    _, _, performers = duel
+    for one in performers:
+        now_s = one.start_s + one.mechanics.time_s
+        for i, move in enumerate(one.moves[1:], start=1):
+            since_s = now_s[one.joins & (one.at == i)] - move.start_s
+            over_s = min(0.3, (move.end_s - move.start_s) / (1.0 if move.idles else 3.0))
+            assert len(since_s) >= int(over_s * 24.0)
+            assert since_s.max(initial=0.0) < over_s
+        assert not one.joins[one.at == 0].any()
+
+
 def test_what_is_drawn_elsewhere_is_off_its_path(library, duel):
     recording, score, performers = duel
     still = replace(

@@ -65,6 +65,17 @@ def test_a_body_that_stands_is_over_its_feet_and_still():
     assert np.isnan(found.outside_m[[0, 1, 2, -3, -2, -1]]).all()
 
 
+@pytest.mark.parametrize(("lifted_m", "bears"), [(0.02, True), (0.04, False), (0.3, False)])
+def test_a_lifted_foot_does_not_bear(lifted_m, bears):
+    place = np.repeat(STANDING[None], 60, axis=0)
+    left = [SKELETON.index(f"left_{joint}") for joint in ("foot", "toes")]
+    place[20:, left, 1] += lifted_m
+    found = mechanics_of(place, np.arange(60) / RATE_HZ, ANATOMY)
+    # The mass centre is between the feet: off the right sole by its distance less half a sole.
+    off = abs(STANDING[SKELETON.index("right_foot"), 0]) - 0.045
+    np.testing.assert_allclose(found.outside_m[35:50], 0.0 if bears else off, atol=0.01)
+
+
 @pytest.mark.parametrize("gravity_m_s2", [G, 0.5 * G, 2.0 * G])
 def test_a_thrown_body_falls_as_fast_as_it_was_thrown(gravity_m_s2):
     time_s = np.arange(0.0, 3.0, 1.0 / RATE_HZ)
