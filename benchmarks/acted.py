@@ -28,7 +28,7 @@ from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
 from smd.transfer.demands import way_of
 from smd.transfer.repertoire import Piece
-from smd.transfer.timeline import timeline
+from smd.transfer.timeline import SHORTEST_IDLE_S
 from smd.transfer.travelling import NOWHERE_M
 
 FINE_S = 1e-3
@@ -138,12 +138,11 @@ def acted(
     recording: Recording, score: Score, library: Library, options: dict[str, Any]
 ) -> Iterator[Acted]:
     """Act out a Score, `animate` being given some options, and yield its performers' figures."""
-    # The one place that a timing is passed on. `played` finds the moves that the poses came from.
     performance = animate(score, recording, library, rate_hz=RATE_HZ, **options)
     parts = {part.device: part for part in score.performers}
     first_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
     last_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
-    for seen in quality.played(performance, recording, score, library):
+    for seen in quality.played(performance, recording, score, library, **options):
         skeleton = seen.actor.character.skeleton
         anatomy = anatomy_of(skeleton)
         figures = anatomy and mechanics(skeleton, seen.poses, performance.rate_hz, anatomy)
@@ -188,8 +187,7 @@ def in_order(drawn: Sequence[str], played: Sequence[str]) -> int:
 def _beats(seen: quality.Played, part: Part, recording: Recording) -> Iterator[Beat]:
     """Yield the drawn phrases of a part, each with the moves of the phrase played in its place."""
     played = _moves_of(seen)
-    spans = [s for s in timeline(part, seen.time_s[0], seen.time_s[-1]) if s.phrase is not None]
-    starts_s = {id(span.phrase): span.start_s for span in spans}
+    over_s = float(seen.time_s[0])
     before: Move[Piece] | None = None
     for i, phrase in enumerate(part.phrases):
         moves = played[i] if i < len(played) else ()
@@ -197,8 +195,8 @@ def _beats(seen: quality.Played, part: Part, recording: Recording) -> Iterator[B
         if moves and moves[0].piece.travels:
             # A gait that goes on from another fills the short gap between them.
             goes_on = before is not None and kind_of(before) == kind_of(moves[0]) == "gait"
-            begun_s = starts_s.get(id(phrase), phrase.start_s)
-            start_s = begun_s if goes_on else max(begun_s, phrase.start_s)
+            goes_on &= phrase.start_s - over_s < SHORTEST_IDLE_S
+            start_s = over_s if goes_on else max(over_s, phrase.start_s)
             over_ground = seen.path.at(knots(start_s, phrase.end_s))
             drawn_m = _length_m(over_ground)
             way_m = sum(way_of(move) for move in moves)
@@ -206,7 +204,7 @@ def _beats(seen: quality.Played, part: Part, recording: Recording) -> Iterator[B
             off_m = _rms(_distances_m(_root(seen, moves), fine - fine[0] + moves[0].root_m[0]))
         late_s = _late_s(seen, moves, phrase, recording)
         yield Beat(phrase, moves, drawn_m, way_m, off_m, late_s, _moved_s(moves, phrase))
-        before = moves[-1] if moves else None
+        before, over_s = moves[-1] if moves else None, phrase.end_s
 
 
 def _moves_of(seen: quality.Played) -> list[tuple[Move[Piece], ...]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -88,13 +88,19 @@ class Played(NamedTuple):
 
 
 def played(
-    performance: Performance, recording: Recording, score: Score, library: Library
+    performance: Performance, recording: Recording, score: Score, library: Library, **options: Any
 ) -> Iterator[Played]:
-    """Yield the actors of a performance, in full Effort, with their moves."""
+    """Yield the actors of a performance, in full Effort, with their moves.
+
+    Parameters
+    ----------
+    **options
+        What else the performance was made with, for `entrances`.
+    """
     stage = scene_scale(recording, library.character.height_m, score.figure_height_m)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     cast = cast_of(library)
-    alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop")
+    alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop", **options)
     for actor, one in zip(performance.actors, kept_apart(alone, cast), strict=True):
         feet = tuple(leg.foot for leg in one.pieces.legs)
         stands, _ = stepped(one.moves, time_s, one.idling)
