@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.character.clip import Clip
+from smd.character.ik import Limb
 from smd.character.kinematics import joints_in_world
 from smd.expression.body import Arm
 from smd.geometry.arrays import FloatArray
@@ -24,6 +25,10 @@ from smd.geometry.rotations import (
 
 SOFTNESS = 0.03
 """Last share of an arm's reach, in which it straightens more and more slowly."""
+
+LEAST_BEND_RAD = np.radians(3.0)
+"""How far an arm stays bent that reaches as far as it can, unless its own is straighter: people
+seldom lock their elbows."""
 
 STRAIGHT = 0.02
 """Sine of the bend about which an arm's hinge, and no longer the bend itself, says its axis."""
@@ -84,8 +89,8 @@ def with_hand_moved(clip: Clip, arm: Arm, pose: ArmPose, offset_m: FloatArray) -
     """
     have = pose.hand_m - pose.shoulder_m
     want = have + offset_m
-    span = arm.limb.reachable_m(np.linalg.norm([have, want], axis=-1), SOFTNESS)
-    bent, bends = arm.limb.bend_rad(span)
+    span = np.linalg.norm([have, want], axis=-1)
+    bent, bends = arm.limb.bend_rad([span[0], _reachable_m(span[1], span[0], arm.limb)])
     upper_m, lower_m = pose.elbow_m - pose.shoulder_m, pose.hand_m - pose.elbow_m
     axis = _bending_axis(rotate(pose.upper_xyzw, arm.limb.upper_hinge), upper_m, lower_m)
     bend = quaternion_from_rotvec(axis * (bends - bent)[:, None])
@@ -96,6 +101,24 @@ def with_hand_moved(clip: Clip, arm: Arm, pose: ArmPose, offset_m: FloatArray) -
     rotation[:, arm.upper] = multiply(inverse(pose.above_xyzw), upper)
     rotation[:, arm.middle] = multiply(inverse(upper), middle)
     return replace(clip, rotation_xyzw=rotation)
+
+
+def _reachable_m(wanted_m: FloatArray, own_m: FloatArray, limb: Limb) -> FloatArray:
+    """Return the distances ``(n,)`` that an arm takes for wanted ones: its own for its own.
+
+    Over the last part of its reach it straightens more and more slowly, and never all the way;
+    that part begins where the arm is anyway, if it is straighter. Had also an arm's own distance
+    been shortened, it would be less bent than it is taken to be, and the difference would bend it
+    backwards.
+    """
+    nearest = abs(limb.upper_length_m - limb.lower_length_m)
+    farthest = np.maximum(own_m, limb.span_m(LEAST_BEND_RAD))
+    begins = np.minimum(np.maximum(own_m, (1.0 - SOFTNESS) * limb.reach_m), farthest)
+    room = np.maximum(farthest - begins, 1e-9)
+    beyond = np.maximum(wanted_m - begins, 0.0)
+    return np.where(
+        beyond > 0.0, begins - room * np.expm1(-beyond / room), np.maximum(wanted_m, nearest)
+    )
 
 
 def _bending_axis(hinge: FloatArray, upper_m: FloatArray, lower_m: FloatArray) -> FloatArray:

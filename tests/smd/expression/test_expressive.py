@@ -301,6 +301,18 @@ def elbow_side(pose: ArmPose, arm: Arm) -> np.ndarray:
     return sine / (np.linalg.norm(upper, axis=-1) * np.linalg.norm(lower, axis=-1))
 
 
+@pytest.mark.parametrize("name", ["pick_up", "slash", "throw", "spin"])
+@pytest.mark.parametrize("farther_m", [0.02, 0.1, 0.5])
+def test_an_arm_that_reaches_for_what_is_too_far_does_not_bend_backwards(name, farther_m):
+    clip = LIBRARY.clip(name)
+    for i, arm in enumerate(BODY.arms):
+        pose = arm_poses(clip, BODY.arms)[i]
+        away = pose.hand_m - pose.shoulder_m
+        offset = farther_m * away / np.linalg.norm(away, axis=-1, keepdims=True)
+        moved = arm_poses(with_hand_moved(clip, arm, pose, offset), BODY.arms)[i]
+        assert elbow_side(moved, arm).min() > 0.0
+
+
 def test_a_spring_swings_over_as_its_damping_says_and_comes_to_rest():
     clip = LIBRARY.clip("idle")
     hand = BODY.arms[0].hand
