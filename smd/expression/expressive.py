@@ -1,6 +1,6 @@
 """Expression: a neutral clip played with Effort (section 6.4 of the paper [1]_).
 
-Time changes the durations of the stages and their speed curves.
+Time changes the durations of the stages and their speed curves, and the attack of a gait's steps.
 Weight makes speeds more or less even, movements larger or smaller, and lowers or raises the back.
 Space makes the hands' paths straighter or more curved, and lets the gaze rest or wander. Flow holds
 each pose, or lets the limbs swing through. What the action is for is kept: where a hand strikes or
@@ -23,6 +23,7 @@ import numpy as np
 from laban import Effort
 from smd.character.clip import Clip
 from smd.character.poses import Poses
+from smd.expression.attack import with_attack
 from smd.expression.body import Body
 from smd.expression.operators import at_frames, rescaled, reshaped, retimed
 from smd.expression.reaching import with_hands_kept
@@ -101,6 +102,8 @@ def expressive(study: Study, effort: Effort, *, travels: bool) -> Clip:
     if not clip.cyclic:
         frame = effort_timing(study, clip, time, weight, flow)
         clip = retimed(clip, frame)
+    elif time:
+        clip = with_attack(clip, time, study.body)
     if flow:
         clip = with_flow(clip, flow, study.body, at_frames(study.swings, frame))
     bearing = at_frames(study.bearing, frame)

@@ -13,6 +13,7 @@ from laban import Effort
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.errors import TransferError
+from smd.expression.attack import attacked
 from smd.expression.body import Arm, body_of
 from smd.expression.expressive import effort_timing, expressive
 from smd.expression.operators import SOFT, between_frames, powered_pace, rescaled, reshaped, retimed
@@ -121,6 +122,42 @@ def test_without_time_a_gait_s_legs_are_its_own(name, weight):
     legs = [j for j, joint in enumerate(clip.skeleton.joints) if "leg" in joint or "foot" in joint]
     kept = clip.rotation_xyzw[:, legs], neutral.rotation_xyzw[:, legs]
     np.testing.assert_allclose(*kept, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["walk", "run", "sneak", "walk_backward", "hop"])
+@pytest.mark.parametrize("time", [-1.0, -0.4, 0.4, 1.0])
+def test_time_gives_steps_their_attack_and_leaves_the_pace_and_who_stands(name, time):
+    neutral, clip = LIBRARY.clip(name), played(name, time, 0.0)
+    np.testing.assert_array_equal(clip.translation_m, neutral.translation_m)
+    np.testing.assert_array_equal(clip.contacts, neutral.contacts)
+    for side in ("left", "right"):
+        leg = [
+            j
+            for j, joint in enumerate(clip.skeleton.joints)
+            if joint.startswith(side) and ("leg" in joint or "foot" in joint)
+        ]
+        columns = [i for i, one in enumerate(clip.contact_joints) if one.startswith(side)]
+        stands = neutral.contacts[:, columns].any(axis=1)
+        own, there = neutral.rotation_xyzw[:, leg], clip.rotation_xyzw[:, leg]
+        same_turn = np.abs(np.sum(own * there, axis=-1))
+        assert same_turn[stands].min(initial=1.0) > 1.0 - 1e-12
+        if stands.any() and not stands.all():
+            assert same_turn[~stands].min() < 1.0 - 1e-5
+
+
+def test_an_attack_is_early_when_sudden_and_even_when_sustained_and_joins_at_both_ends():
+    u = np.linspace(0.0, 1.0, 1001)
+    for time in (-1.0, -0.3, 0.3, 1.0):
+        shown = attacked(u, time)
+        pace = np.diff(shown) / np.diff(u)
+        assert (shown[0], shown[-1]) == (0.0, 1.0)
+        assert pace.min() > 0.3 and pace.max() < 2.0
+        assert pace[[0, -1]] == pytest.approx(1.0, abs=0.01)
+        assert (attacked(0.5, time) > 0.5) == (time > 0.0)
+    # A step at its own pace is quickest in the middle; a sustained one is less so.
+    step = 0.5 - 0.5 * np.cos(np.pi * u)
+    assert np.diff(np.interp(attacked(u, -1.0), u, step)).max() < 0.84 * np.diff(step).max()
+    np.testing.assert_array_equal(attacked(u, 0.0), u)
 
 
 def test_equation_7_with_one_nothing_and_a_half():
