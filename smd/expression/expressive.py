@@ -94,7 +94,9 @@ def expressive(study: Study, effort: Effort, *, travels: bool) -> Clip:
     if not (time or weight or space or flow):
         return clip
     if space:
-        clip = with_space(study, space)
+        if space not in study.spaced:
+            study.spaced[space] = with_space(study, space)
+        clip = study.spaced[space]
     clip = with_size(clip, time, weight, study, gait=travels and clip.cyclic)
     if weight:
         clip = with_shape(clip, weight, study)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -44,6 +44,8 @@ class Study:
         near that moment, to 1.
     hands_m : (n, a, 3) where the hands of the body's arms are.
     bearing : (n, a) how surely each of them rests on the ground, from 0 to 1.
+    spaced : the clip as each Space plays it that was asked for so far, before anything else: the
+        same whatever Time, Weight and Flow are, and half of the work.
     """
 
     clip: Clip
@@ -57,6 +59,7 @@ class Study:
     carried: FloatArray
     hands_m: FloatArray
     bearing: FloatArray
+    spaced: dict[float, Clip] = field(default_factory=dict)
 
 
 def study_of(clip: Clip, body: Body) -> Study:

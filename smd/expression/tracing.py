@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.character.clip import Clip
-from smd.expression.reaching import TOUCHING_M, arm_poses, with_hand_moved
+from smd.expression.reaching import TOUCHING_M, arm_poses, with_hands_moved
 from smd.expression.study import Study
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
@@ -178,17 +178,20 @@ def with_hands_redrawn(clip: Clip, study: Study, space: float) -> Clip:
     space
         As in `redrawn`.
     """
-    arms, root = study.body.arms, clip.rotation_xyzw[:, 0]
+    arms, root = study.body.arms, clip.rotation_xyzw[:, :1]
+    if not arms:
+        return clip
     through = [] if clip.cyclic else sorted(set(clip.stage_end_frames[1:3].tolist()))
-
-    def seen(place_m: FloatArray) -> FloatArray:
-        return rotate(inverse(root), place_m - clip.translation_m[:, 0])
-
-    for i, (arm, pose) in enumerate(zip(arms, arm_poses(clip, arms), strict=True)):
-        there = study.hands_m[:, i]
+    pose, there = arm_poses(clip, arms), study.hands_m
+    path, shoulder = (
+        rotate(inverse(root), place_m - clip.translation_m[:, :1])
+        for place_m in (there, pose.shoulder_m)
+    )
+    offset = np.empty_like(path)
+    for i, arm in enumerate(arms):
         free = 1.0 - study.bearing[:, i]
-        held = Held(free, seen(pose.shoulder_m), arm.limb.reach_m, through)
-        wanted = there + rotate(root, redrawn(seen(there), space, clip.rate_hz, held))
-        wanted[:, 1] = np.maximum(wanted[:, 1], np.minimum(there[:, 1], TOUCHING_M))
-        clip = with_hand_moved(clip, arm, pose, wanted - pose.hand_m)
-    return clip
+        held = Held(free, shoulder[:, i], arm.limb.reach_m, through)
+        offset[:, i] = redrawn(path[:, i], space, clip.rate_hz, held)
+    wanted = there + rotate(root, offset)
+    wanted[..., 1] = np.maximum(wanted[..., 1], np.minimum(there[..., 1], TOUCHING_M))
+    return with_hands_moved(clip, arms, pose, wanted - pose.hand_m)
