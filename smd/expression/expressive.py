@@ -244,6 +244,8 @@ def with_flow(clip: Clip, flow: float, body: Body, swings: FloatArray) -> Clip:
     swings
         ``(n,)`` how freely limbs may swing, in the time that is played.
     """
+    if not body.upper:
+        return clip
     share = swings if clip.cyclic else swings * settled(len(clip), EDGE)
     if flow > 0.0:
         return damped(clip, body.upper, flow * share)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,6 +15,7 @@ from actions_library.folder import load_library
 from laban import Effort
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
+from smd.character.skeleton import Skeleton
 from smd.errors import TransferError
 from smd.expression.attack import attacked
 from smd.expression.body import body_of
@@ -440,8 +444,6 @@ def test_a_spring_swings_over_as_its_damping_says_and_comes_to_rest():
     hand = BODY.arms[0].hand
     n, start = len(clip), 60
     angle = np.where(np.arange(n) < start, 0.0, 0.4)
-    from dataclasses import replace
-
     from smd.geometry.rotations import quaternion_about
 
     rotation = clip.rotation_xyzw.copy()
@@ -469,8 +471,6 @@ def test_space_and_flow_break_no_elbow_and_no_cycle(name, flow, space):
 
 
 def test_damping_leaves_what_is_slow_and_takes_what_is_quick():
-    from dataclasses import replace
-
     from smd.geometry.rotations import quaternion_about
 
     clip, hand = LIBRARY.clip("idle"), BODY.arms[0].hand
@@ -483,6 +483,53 @@ def test_damping_leaves_what_is_slow_and_takes_what_is_quick():
         kept = np.ptp(2.0 * np.arctan2(left[:, 0], left[:, 3])) / 0.4
         # A Gaussian's own answer to a sine.
         assert kept == pytest.approx(np.exp(-0.5 * (2 * np.pi * hz * 0.07) ** 2), abs=0.03)
+
+
+@pytest.mark.parametrize("ends", [[0, 0, 1, 1, 1], [1] * 5, [0, 0, 0, 0, 39], [1, 2, 3, 4, 39]])
+def test_the_shortest_stages_play_every_effort(ends):
+    clip, n = LIBRARY.clip("throw"), ends[-1] + 1
+    short = replace(
+        clip,
+        rotation_xyzw=clip.rotation_xyzw[:n],
+        translation_m=clip.translation_m[:n],
+        contacts=clip.contacts[:n],
+        stage_end_frames=np.array(ends),
+    )
+    asked = study_of(short, BODY)
+    for effort in product((-1.0, 0.5, 1.0), repeat=4):
+        clip = expressive(asked, Effort(*effort), travels=False)
+        assert len(clip) == n and np.isfinite(clip.rotation_xyzw).all()
+
+
+@pytest.mark.parametrize("joints", [1, 2, 5])
+@pytest.mark.parametrize("cyclic", [False, True])
+def test_a_body_without_limbs_plays_every_effort(joints, cyclic):
+    snake = Skeleton(
+        joints=tuple(f"joint_{i}" for i in range(joints)),
+        parents=np.arange(joints) - 1,
+        rest_rotation_xyzw=np.tile([0.0, 0.0, 0.0, 1.0], (joints, 1)),
+        rest_translation_m=np.tile([0.0, 0.0, 0.1], (joints, 1)),
+        world_from_bind=np.tile(np.eye(4), (joints, 1, 1)),
+        roles=("root", *["spine"] * (joints - 1)),
+    )
+    turn = 0.4 * np.sin(np.linspace(0.0, 2.0 * np.pi, 51))[:, None] * np.arange(joints)
+    rotation = np.zeros((51, joints, 4))
+    rotation[..., 1], rotation[..., 3] = np.sin(0.5 * turn), np.cos(0.5 * turn)
+    clip = Clip(
+        name="writhe",
+        skeleton=snake,
+        rate_hz=60.0,
+        rotation_xyzw=rotation,
+        translation_m=np.tile(snake.rest_translation_m, (51, 1, 1)),
+        stage_end_frames=np.array([0, 0, 50, 50, 50] if cyclic else [5, 12, 30, 40, 50]),
+        contact_joints=(),
+        contacts=np.zeros((51, 0), dtype=bool),
+        cyclic=cyclic,
+    )
+    asked = study_of(clip, body_of(clip))
+    for effort in product((-1.0, 0.5, 1.0), repeat=4):
+        played = expressive(asked, Effort(*effort), travels=False)
+        assert np.isfinite(played.rotation_xyzw).all()
 
 
 def test_a_performance_with_the_dial_at_0_is_neutral_and_above_it_is_not():
