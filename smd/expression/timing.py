@@ -25,16 +25,16 @@ from smd.expression.operators import powered_pace
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
 
-PACE_PER_WEIGHT = 0.45
+PACE_PER_WEIGHT = 0.4
 """Power of a body's vigour that Weight multiplies its pace by is this times ``e^weight - 1``: from
--0.3 to 0.8. The paper's 1.5 either way leaves a single frame of a strong blow, and makes the pace
+-0.25 to 0.7. The paper's 1.5 either way leaves a single frame of a strong blow, and makes the pace
 of a light one so even that it comes off its rest with a jerk."""
 
 EVENED = 1.0
-"""Power of the speed that the pace of a sustained execution is divided by."""
+"""Power of its vigour that the pace of a sustained clip is divided by, within each part of it."""
 
-PREPARED_PER_SUDDEN, BACK_PER_SUDDEN = 0.6, 1.2
-"""A sudden body is ready in ``exp(-0.6 time)`` of the time, and back in ``exp(-1.2 time)``."""
+QUICK_PER_SUDDEN = 0.6
+"""A sudden body is ready, and back, in ``exp(-0.6 time)`` of the time."""
 
 WAITING, WAITS = 0.1, 5.0
 """Last share of a clip in which a sudden body waits: it is back by then, but for its last few
@@ -117,8 +117,8 @@ def waiting_slowness(slowness: FloatArray, clip: Clip, sudden: float) -> FloatAr
     happened, nor at the cost of the anticipation.
     """
     n, (prepared, _, _, followed, _) = len(slowness), clip.stage_end_frames.tolist()
-    slowness[:prepared] *= np.exp(-PREPARED_PER_SUDDEN * sudden)
-    slowness[followed:] *= np.exp(-BACK_PER_SUDDEN * sudden)
+    slowness[:prepared] *= np.exp(-QUICK_PER_SUDDEN * sudden)
+    slowness[followed:] *= np.exp(-QUICK_PER_SUDDEN * sudden)
     waits = max(followed, round((1.0 - WAITING) * n))
     if waits < n:
         gained = (n - slowness[:waits].sum()) / (n - waits)
