@@ -49,7 +49,7 @@ def with_attack(clip: Clip, time: float, body: Body) -> Clip:
         for effector in body.effectors
         if effector.is_leg and (columns := _columns(clip, effector.beyond))
     }
-    downs = sorted({down for stand in stands.values() for _, down in _swings(stand)})
+    downs = sorted({down % last for stand in stands.values() for _, down in _swings(stand)})
     if not downs:
         return clip
     rotation = clip.rotation_xyzw.copy()

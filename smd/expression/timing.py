@@ -149,9 +149,10 @@ def pace_slowness(vigour: Vigour, slowness: FloatArray, power: float) -> FloatAr
 
 
 def sustained_slowness(vigour: Vigour, clip: Clip, time: float) -> FloatArray:
-    """Return the slowness of a sustained clip's stages: an even execution, and no hurry elsewhere.
+    """Return the slowness of a sustained clip's stages, even and in no hurry.
 
-    Evenness grows with the square of ``time``, so that nothing changes its direction at 0.
+    The pace is evened before the execution, in it and after it, each by itself. Evenness grows
+    with the square of ``time``, so that nothing changes its direction at 0.
 
     Parameters
     ----------

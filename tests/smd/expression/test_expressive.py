@@ -17,7 +17,7 @@ from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.character.skeleton import Skeleton
 from smd.errors import TransferError
-from smd.expression.attack import attacked
+from smd.expression.attack import attacked, with_attack
 from smd.expression.body import body_of
 from smd.expression.expressive import effort_timing, expressive
 from smd.expression.operators import SOFT, between_frames, powered_pace, rescaled, reshaped, retimed
@@ -147,6 +147,26 @@ def test_time_gives_steps_their_attack_and_leaves_the_pace_and_who_stands(name, 
         assert same_turn[stands].min(initial=1.0) > 1.0 - 1e-12
         if stands.any() and not stands.all():
             assert same_turn[~stands].min() < 1.0 - 1e-5
+
+
+@pytest.mark.parametrize("name", ["walk", "run", "hop", "dance", "feet together"])
+def test_where_a_cycle_begins_does_not_matter_to_its_steps(name):
+    clip = LIBRARY.clip("walk" if name == "feet together" else name)
+    n = len(clip) - 1
+    if name == "feet together":
+        lands = [20 if joint.startswith("left") else 24 for joint in clip.contact_joints]
+        frame = np.arange(n + 1)[:, None]
+        clip = replace(clip, contacts=(frame >= lands) & (frame < np.add(lands, 30)))
+
+    def begun(one: Clip, at: int) -> Clip:
+        frames = np.append(np.roll(np.arange(n), -at), at)
+        return replace(one, rotation_xyzw=one.rotation_xyzw[frames], contacts=one.contacts[frames])
+
+    for at in range(0, n, 2):
+        for time in (-1.0, 1.0):
+            there = with_attack(begun(clip, at), time, BODY).rotation_xyzw[:, 1:]
+            here = begun(with_attack(clip, time, BODY), at).rotation_xyzw[:, 1:]
+            assert np.abs(np.sum(there * here, axis=-1)).min() > 1.0 - 1e-9
 
 
 def test_an_attack_is_early_when_sudden_and_even_when_sustained_and_joins_at_both_ends():
