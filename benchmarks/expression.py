@@ -12,30 +12,44 @@ a tenth as large as the character. Two readers read them:
 A pair of performances that differ by 0.5 or more on one axis, all else equal, is in order if what
 is read differs the same way; it is mistaken if more is read to have changed on the other axis of
 the two.
+
+Then what every expression keeps, each axis alone from -1 to 1 in nine steps: by how much each
+measure goes the wrong way from one step to the next, at most, of each action. And in all 81 states
+of poles and neutral: how far a hand or foot is from where the neutral action is for, and the least
+bend of any elbow or knee, over all actions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations, product
 
 import numpy as np
 
 from actions_library.folder import load_library
+from actions_library.library import Library
 from laban import Effort, EffortModel, load_effort_model
 from laban.description import DESCRIPTION_NAMES, FAMILIES, describe
 from laban.linear import fit_linear
 from laban.model import effort_of
 from laban.stillness import is_readable
 from smd.character.clip import Clip
+from smd.character.ik import limb_of
 from smd.character.kinematics import forward_kinematics
+from smd.character.roles import body_plan
 from smd.doodle import Doodle
 from smd.expression.body import body_of
 from smd.expression.expressive import expressive
-from smd.expression.study import study_of
+from smd.expression.study import Study, study_of
 from smd.geometry.arrays import FloatArray
+from smd.geometry.rotations import inverse, normalized, rotate
 from smd.smoothing import smooth
 
+NINE = tuple(np.linspace(-1.0, 1.0, 9).tolist())
+ACTS_M = 0.3
+"""How far a hand or foot goes, at least, that acts."""
+
+AHEAD = (0.0, 0.0, 1.0)
 VALUES = (-1.0, -0.5, 0.0, 0.5, 1.0)
 LEAST = 0.5
 FIGURINE = 0.1
@@ -131,8 +145,148 @@ def ordered(odds: Odds) -> Iterator[tuple[int, bool, bool]]:
             yield i, read[i] * change > 0.0, abs(read[1 - i]) > abs(read[i])
 
 
+def places(clip: Clip) -> FloatArray:
+    """Return where the joints are in the character's own frame, ``(n, j, 3)``."""
+    rotation, place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    return rotate(inverse(rotation[:, :1]), place - place[:, :1])
+
+
+def acting(study: Study) -> int:
+    """Return the hand or foot that goes farthest while a neutral clip's action is executed."""
+    begins, ends = study.clip.stage_end_frames[1:3]
+    ways = way_m(places(study.clip)[begins : ends + 1])
+    return max((effector.end for effector in study.body.effectors), key=lambda j: float(ways[j]))
+
+
+def way_m(place_m: FloatArray) -> FloatArray:
+    """Return how far each joint goes, ``(j,)``, by ``(n, j, 3)``."""
+    return np.asarray(np.linalg.norm(np.diff(place_m, axis=0), axis=-1).sum(axis=0))
+
+
+def executed_s(clip: Clip, joint: int) -> float:
+    """Return how long a clip's execution lasts."""
+    return float(clip.stage_end_frames[2] - clip.stage_end_frames[1]) / clip.rate_hz
+
+
+def peak_m_s2(clip: Clip, joint: int) -> float:
+    """Return a clip's greatest acceleration, over 1/15 s: of a joint that acts, or of the body.
+
+    A joint that goes less than `ACTS_M` does not act; the body's is the RMS of all joints'.
+    """
+    place = places(clip)
+    step = round(clip.rate_hz / 30.0)
+    second = place[2 * step :] - 2.0 * place[step:-step] + place[: -2 * step]
+    each = np.linalg.norm(second, axis=-1) * (clip.rate_hz / step) ** 2
+    if np.linalg.norm(np.ptp(place[:, joint], axis=0)) >= ACTS_M:
+        return float(each[:, joint].max())
+    return float(np.sqrt(np.mean(each**2, axis=-1)).max())
+
+
+def size_m(clip: Clip, joint: int) -> float:
+    """Return how far a joint goes in a clip."""
+    return float(way_m(places(clip))[joint])
+
+
+def directness(clip: Clip, joint: int) -> float:
+    """Return the chord of a joint's way through the execution, over its arc."""
+    begins, ends = clip.stage_end_frames[1:3]
+    path = places(clip)[begins : ends + 1, joint]
+    arc = np.linalg.norm(np.diff(path, axis=0), axis=-1).sum()
+    return float(np.linalg.norm(path[-1] - path[0]) / max(arc, 1e-9))
+
+
+def followed_m(clip: Clip, joint: int) -> float:
+    """Return how far a joint still goes once the execution has ended."""
+    return float(way_m(places(clip)[clip.stage_end_frames[2] :])[joint])
+
+
+LAWS: tuple[tuple[str, str, float, Callable[[Clip, int], float]], ...] = (
+    ("time", "the execution lasts longer", -1.0, executed_s),
+    ("weight", "the peak acceleration falls", 1.0, peak_m_s2),
+    ("weight", "the way falls", 1.0, size_m),
+    ("space", "chord over arc falls", 1.0, directness),
+    ("flow", "the follow-through grows", -1.0, followed_m),
+)
+"""What should never happen with more of an axis; the sign of what may; and the measure."""
+
+
+def played_along(study: Study, axis: str, values: Sequence[float], *, travels: bool) -> list[Clip]:
+    """Return a clip played with values of one axis alone."""
+    return [expressive(study, Effort(**{axis: value}), travels=travels) for value in values]
+
+
+def wrong_way(values: Sequence[float], sign: float) -> float:
+    """Return the greatest relative change from one value to the next that has the wrong sign."""
+    value = np.asarray(values, dtype=np.float64)
+    change = sign * np.diff(value) / np.maximum(np.abs(value[:-1]), 1e-9)
+    return float(max(-change.min(), 0.0))
+
+
+def bends_rad(clip: Clip) -> FloatArray:
+    """Return how far each elbow and knee is bent, ``(n, limbs)``: negative is backwards."""
+    skeleton = clip.skeleton
+    _, rest = forward_kinematics(skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m)
+    plan = body_plan(skeleton.joints, skeleton.parents.tolist(), rest, front=AHEAD)
+    turned, place = forward_kinematics(skeleton, clip.rotation_xyzw, clip.translation_m)
+    bends = []
+    for part in plan.limbs:
+        joints = (part.upper, part.middle, part.end)
+        pole = AHEAD if part.kind == "leg" else tuple(-x for x in AHEAD)
+        limb = limb_of(skeleton, *(skeleton.joints[j] for j in joints), pole)
+        upper = normalized(place[:, part.middle] - place[:, part.upper])
+        lower = normalized(place[:, part.end] - place[:, part.middle])
+        hinge = rotate(turned[:, part.upper], limb.upper_hinge)
+        sine = np.sum(np.cross(upper, lower) * hinge, axis=-1)
+        bends.append(np.arctan2(sine, np.sum(upper * lower, axis=-1)))
+    return np.stack(bends, axis=-1)
+
+
+def off_aim_m(study: Study, clip: Clip) -> float:
+    """Return how far an effector is from its aim when the execution ends; 0 without an aim."""
+    neutral, played = places(study.clip), places(clip)
+    ends = [effector.end for effector in study.aim.effectors]
+    apart = played[clip.stage_end_frames[2], ends] - neutral[study.aim.frame, ends]
+    return float(np.linalg.norm(apart, axis=-1).max(initial=0.0))
+
+
+def print_laws(library: Library) -> None:
+    """Print by how much each measure goes the wrong way, per action that is played once."""
+    body = body_of(library.clip("idle"))
+    print("\nmost that a measure goes the wrong way from one of nine steps to the next, in %")
+    print(f"{'':12}" + "".join(f"{axis:>8}" for axis, *_ in LAWS) + "   aims")
+    worst = np.zeros(len(LAWS))
+    for action in library.actions:
+        study = study_of(library.clip(action.name), body)
+        if study.clip.cyclic:
+            continue
+        joint, found = acting(study), []
+        for axis, _, sign, measure in LAWS:
+            clips = played_along(study, axis, NINE, travels=action.travels)
+            found.append(100.0 * wrong_way([measure(clip, joint) for clip in clips], sign))
+        names = [study.clip.skeleton.joints[effector.end] for effector in study.aim.effectors]
+        print(f"{action.name:12}" + "".join(f"{x:8.1f}" for x in found), "  " + ", ".join(names))
+        worst = np.maximum(worst, found)
+    for (axis, wrong, *_), most in zip(LAWS, worst, strict=True):
+        print(f"{axis:6}: {wrong} by {most:.1f} % at most")
+
+
+def print_states(library: Library) -> None:
+    """Print what holds in all 81 states of poles and neutral: aims and hinges."""
+    body = body_of(library.clip("idle"))
+    aims, bends = [], []
+    for action in library.actions:
+        study = study_of(library.clip(action.name), body)
+        for state in product((-1.0, 0.0, 1.0), repeat=4):
+            clip = expressive(study, Effort(*state), travels=action.travels)
+            aims.append((100.0 * off_aim_m(study, clip), action.name, state))
+            bends.append((float(np.degrees(bends_rad(clip).min())), action.name, state))
+    print(f"\n{len(bends)} clips in all 81 states; a state is time, weight, space, flow")
+    print("farthest from an aim: {:.2f} cm, {} {}".format(*max(aims)))
+    print("least bend of an elbow or knee: {:.2f} degrees, {} {}".format(*min(bends)))
+
+
 def main() -> None:
-    """Print the shares of pairs in order and of those mistaken, by reader, axis and part."""
+    """Print what is read, by reader, axis and part; then what is kept."""
     model = load_effort_model()
     for axes in PAIRS_OF_AXES:
         descriptions = played_descriptions(axes)
@@ -150,6 +304,8 @@ def main() -> None:
                         f"{np.sum(pairs[:, 0] == i)} pairs in order, {wrong:.1f} % mistaken for "
                         f"{axes[1 - i]}"
                     )
+    print_laws(load_library())
+    print_states(load_library())
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
 from smd.character.kinematics import forward_kinematics
@@ -33,6 +35,27 @@ class Arm:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Effector:
+    """The end of an arm or a leg: what acts on the world.
+
+    Attributes
+    ----------
+    end, base : indices of wrist and shoulder, or of ankle and hip.
+    chain : joints that move the end: from the ground root's first child to the end itself.
+    beyond : the end and what hangs from it.
+    reach_m : how far the end may be from the base.
+    is_leg : and carries the body, while it touches the ground.
+    """
+
+    end: int
+    base: int
+    chain: frozenset[int]
+    beyond: frozenset[int]
+    reach_m: float
+    is_leg: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Body:
     """The joints of a skeleton that express Effort.
 
@@ -46,6 +69,7 @@ class Body:
     every : joints that are rescaled in anything else.
     hinges : elbows and knees, which are never enlarged.
     arms : that two-bone inverse kinematics can turn.
+    effectors : the ends of arms and legs.
     pelvis : the joint that holds the legs.
     pelvis_height_m : over the ground at rest.
     rest_xyzw : (j, 4) how each joint is turned in the world at rest.
@@ -59,6 +83,7 @@ class Body:
     every: tuple[int, ...]
     hinges: frozenset[int]
     arms: tuple[Arm, ...]
+    effectors: tuple[Effector, ...]
     pelvis: int
     pelvis_height_m: float
     rest_xyzw: FloatArray
@@ -86,9 +111,29 @@ def body_of(clip: Clip) -> Body:
         every=every,
         hinges=frozenset(limb.middle for limb in plan.limbs),
         arms=tuple(arm for arm in arms if arm),
+        effectors=tuple(_effector(skeleton, limb) for limb in plan.limbs),
         pelvis=plan.root[-1],
         pelvis_height_m=float(place[plan.root[-1], 1] - place[:, 1].min()),
         rest_xyzw=turned,
+    )
+
+
+def _effector(skeleton: Skeleton, plan: LimbPlan) -> Effector:
+    parents, chain = skeleton.parents.tolist(), [plan.end]
+    while parents[chain[-1]] > 0:
+        chain.append(parents[chain[-1]])
+    beyond = {plan.end}
+    for joint, parent in enumerate(parents):  # parents come first
+        if parent in beyond:
+            beyond.add(joint)
+    bones = np.linalg.norm(skeleton.rest_translation_m[[plan.middle, plan.end]], axis=-1)
+    return Effector(
+        end=plan.end,
+        base=plan.upper,
+        chain=frozenset(chain),
+        beyond=frozenset(beyond),
+        reach_m=float(bones.sum()),
+        is_leg=plan.kind == "leg",
     )
 
 

@@ -41,9 +41,9 @@ def retimed(clip: Clip, source_frame: FloatArray) -> Clip:
     source_frame
         ``(n,)`` not decreasing, from 0 to n - 1; fractional frames lie between two.
     """
-    rotation = normalized(at_frames(clip.rotation_xyzw, source_frame))
-    translation = at_frames(clip.translation_m, source_frame)
-    nearest = np.round(source_frame).astype(np.int64)
+    rotation = normalized(between_frames(clip.rotation_xyzw, source_frame))
+    translation = between_frames(clip.translation_m, source_frame)
+    nearest = np.rint(source_frame).astype(np.int64)
     return replace(
         clip,
         rotation_xyzw=rotation,
@@ -61,43 +61,53 @@ def at_frames(value: FloatArray, frame: FloatArray) -> FloatArray:
     return before + share * (value[left + 1] - before)
 
 
-def retimed_ends(stage_end_frames: IntArray, source_frame: FloatArray) -> IntArray:
-    """Return the frames ``(5,)`` at which stages end once a clip is retimed."""
-    last = len(source_frame) - 1
-    ends = np.minimum(np.searchsorted(source_frame, stage_end_frames - 1e-6), last)
-    ends[-1] = last  # a clip that has ended stands on
-    return ends
+def between_frames(value: FloatArray, frame: FloatArray) -> FloatArray:
+    """Return values as `at_frames` does, on a curve through the frames that keeps its direction.
 
+    On straight lines, a movement that is retimed would jerk from frame to frame. The cubics are
+    those of Catmull and Rom [1]_; beyond its ends a clip goes straight on.
 
-def stage_timing(clip: Clip, lasting: Sequence[float], power: Sequence[float]) -> FloatArray:
-    """Return the source frame ``(n,)`` to show at each frame, by equation (6).
-
-    The duration of each stage is multiplied, and time within it is raised to a power. Then all
-    stages are scaled alike, so that the whole keeps its duration. Our reading: time within a stage
-    is normalised to 0 … 1, so that every power is continuous and increasing.
-
-    Parameters
+    References
     ----------
-    lasting, power
-        One of each per stage, positive.
+    .. [1] E. Catmull, R. Rom, "A class of local interpolating splines", Computer Aided Geometric
+       Design, 1974.
     """
-    last = len(clip) - 1
-    source, played = [0.0], [0.0]
-    start = 0
-    for end, times, exponent in zip(clip.stage_end_frames.tolist(), lasting, power, strict=True):
-        if end > start:
-            u = np.linspace(0.0, 1.0, end - start + 1)[1:]
-            source += (start + u * (end - start)).tolist()
-            played += (played[-1] + (end - start) * times * softened_power(u, exponent)).tolist()
-            start = end
-    scaled = np.asarray(played) * (last / played[-1])
-    return np.clip(np.interp(np.arange(last + 1), scaled, source), 0.0, last)
+    before = 2.0 * value[:1] - value[1:2]
+    after = 2.0 * value[-1:] - value[-2:-1]
+    padded = np.concatenate([before, value, after])
+    left = np.minimum(frame.astype(np.int64), len(value) - 2)
+    u = frame - left
+    weights = 0.5 * np.stack(
+        [
+            u * (u * (2.0 - u) - 1.0),
+            u * u * (3.0 * u - 5.0) + 2.0,
+            u * (u * (4.0 - 3.0 * u) + 1.0),
+            u * u * (u - 1.0),
+        ]
+    )
+    shape = (-1, *(1,) * (value.ndim - 1))
+    return np.asarray(sum(w.reshape(shape) * padded[left + k] for k, w in enumerate(weights)))
 
 
-def softened_power(u: FloatArray, exponent: float) -> FloatArray:
-    """Return ``u`` to a power, from 0 to 1, whose slope is finite and above zero everywhere."""
+def retimed_ends(stage_end_frames: IntArray, source_frame: FloatArray) -> IntArray:
+    """Return the frames ``(5,)`` that are nearest to the ends of stages once a clip is retimed."""
+    last = len(source_frame) - 1
+    after = np.clip(np.searchsorted(source_frame, stage_end_frames), 1, last)
+    early = stage_end_frames - source_frame[after - 1] < source_frame[after] - stage_end_frames
+    ends = after - early
+    ends[-1] = last  # a clip that has ended stands on
+    return np.asarray(ends)
+
+
+def powered_pace(u: FloatArray, exponent: float) -> FloatArray:
+    """Return the pace of a stage whose time ``v`` is raised to a power, where it has got to ``u``.
+
+    Time within a stage is normalised to 0 … 1, so that every power is continuous and increasing:
+    ``u = ((v + SOFT)**exponent - low) / (high - low)``, of which this is du/dv.
+    """
     low, high = SOFT**exponent, (1.0 + SOFT) ** exponent
-    return ((u + SOFT) ** exponent - low) / (high - low)
+    inner = u * (high - low) + low
+    return exponent / (high - low) * inner ** (1.0 - 1.0 / exponent)
 
 
 def rescaled(clip: Clip, joints: Sequence[int], factor: FloatArray, about: Poses) -> Clip:

@@ -16,8 +16,8 @@ from smd.geometry.rotations import normalized, sign_continuous
 SPRING_HZ, SOFTER = 4.0, 0.85
 """Frequency of a joint next to the trunk, and the factor on it for each joint further out."""
 
-DAMPING = 0.4
-"""Damping ratio: these springs overshoot by 1/4, then by 1/16. A hinge is critically damped (1), so
+DAMPING = 0.3
+"""Damping ratio: these springs overshoot by 3/8, then by 1/7. A hinge is critically damped (1), so
 that no elbow overextends."""
 
 DIED_AWAY = 12.0

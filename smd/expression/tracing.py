@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from smd.character.clip import Clip
-from smd.character.kinematics import joints_in_world
-from smd.expression.body import Body
-from smd.expression.reaching import arm_poses, with_hand_moved
+from smd.expression.reaching import TOUCHING_M, arm_poses, with_hands_moved
+from smd.expression.study import Study
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import inverse, normalized, rotate
@@ -27,13 +28,26 @@ TURNING = 0.35
 """A sweep ends where the hand is slower than this share of the top speeds on both sides."""
 
 STEADY_S = 0.03
-"""Smoothing of the speed that separates sweeps."""
+"""Smoothing of the speed that separates sweeps, and of the bend of a path from one to the next."""
+
+PASSING = 0.5
+"""How near a redrawn hand may pass its shoulder, in reaches of its arm."""
+
+NEAR_S = 0.1
+"""How near to a frame that a path leads through no other sweep ends."""
 
 
-def sweeps(position_m: FloatArray, rate_hz: float) -> list[tuple[int, int]]:
+def sweeps(
+    position_m: FloatArray, rate_hz: float, through: Sequence[int] = ()
+) -> list[tuple[int, int]]:
     """Return the first and last frame of each sweep of a path ``(n, 3)``, one after the other.
 
     A sweep ends where the speed has a minimum that is clearly lower than the maxima beside it.
+
+    Parameters
+    ----------
+    through
+        Frames at which one ends in any case, instead of where it is slowest near by.
     """
     speed = np.linalg.norm(np.gradient(position_m, axis=0), axis=-1)
     speed = gaussian_smoothed(speed, STEADY_S * rate_hz)
@@ -44,11 +58,35 @@ def sweeps(position_m: FloatArray, rate_hz: float) -> list[tuple[int, int]]:
         tops = speed[max(before, cuts[-1]) : here + 1].max(), speed[here : after + 1].max()
         if speed[here] < TURNING * min(tops):
             cuts.append(here)
-    return list(pairwise([*cuts, len(speed) - 1]))
+    last, near = len(speed) - 1, NEAR_S * rate_hz
+    apart = [cut for cut in cuts if all(abs(cut - frame) > near for frame in through)]
+    return list(pairwise(sorted({0, last, *through, *apart})))
 
 
-def redrawn(position_m: FloatArray, space: float, rate_hz: float) -> FloatArray:
+class Held(NamedTuple):
+    """What holds a hand back while its path is redrawn.
+
+    Attributes
+    ----------
+    free : (n,) how freely it may be moved, from 0 to 1.
+    shoulder_m : (n, 3) where its shoulder is, in the frame of the path.
+    reach_m : of its arm.
+    through : frames whose places the path keeps, as in `sweeps`.
+    """
+
+    free: FloatArray
+    shoulder_m: FloatArray
+    reach_m: float
+    through: Sequence[int]
+
+
+def redrawn(
+    position_m: FloatArray, space: float, rate_hz: float, held: Held | None = None
+) -> FloatArray:
     """Return the displacement ``(n, 3)`` of a path ``(n, 3)``, zero where it turns.
+
+    Each sweep is displaced in one shape, by one amount: what holds the hand back at one moment
+    holds it back in all, since half a straight way is no straighter one.
 
     Parameters
     ----------
@@ -56,26 +94,64 @@ def redrawn(position_m: FloatArray, space: float, rate_hz: float) -> FloatArray:
         From -1, indirect: what bends bends more, what is straight bows out and weaves; to +1,
         direct: each sweep goes nearly straight. A path that returns to its start has no straight
         way, and is the less straightened the rounder it is.
+    held
+        What holds it back; nothing, by default.
     """
     offset = np.zeros_like(position_m)
-    for start, end in sweeps(position_m, rate_hz):
-        path = position_m[start : end + 1]
-        steps = np.linalg.norm(np.diff(path, axis=0), axis=-1)
-        way = float(steps.sum())
-        if end - start < 2 or way < SHORTEST_M:
-            continue
-        share = np.concatenate([[0.0], np.cumsum(steps)])[:, None] / way
-        chord = path[-1] - path[0]
-        bend = path - (path[0] + share * chord)
-        length = float(np.linalg.norm(chord))
-        if space > 0.0:
-            offset[start : end + 1] = -STRAIGHTER * space * min(2.0 * length / way, 1.0) * bend
-            continue
-        out, aside = _across(chord, bend)
-        arc = BOW * np.sin(np.pi * share) * out
-        weave = WEAVE * np.sin(2.0 * np.pi * share) * np.sin(np.pi * share) * aside
-        offset[start : end + 1] = -space * (BENT_MORE * bend + length * (arc + weave))
-    return offset
+    through = held.through if held else ()
+    for start, end in sweeps(position_m, rate_hz, through):
+        at = slice(start, end + 1)
+        shape = _displacement(position_m[at], direct=space > 0.0)
+        amount = abs(space)
+        if held and shape.any():
+            amount *= float(held.free[at].min())
+            arm = position_m[at] - held.shoulder_m[at]
+            amount = min(amount, _most_beside(arm, shape, PASSING * held.reach_m))
+        offset[at] = amount * shape
+    smooth = gaussian_smoothed(offset, STEADY_S * rate_hz) if through else offset
+    for frame in through:
+        away = (np.arange(len(offset)) - frame) / (2.0 * STEADY_S * rate_hz)
+        smooth = smooth - np.exp(-0.5 * away * away)[:, None] * smooth[frame]
+    return smooth
+
+
+def _displacement(path: FloatArray, *, direct: bool) -> FloatArray:
+    """Return what is added to one sweep ``(n, 3)`` in full."""
+    steps = np.linalg.norm(np.diff(path, axis=0), axis=-1)
+    way = float(steps.sum())
+    if len(path) < 3 or way < SHORTEST_M:
+        return np.zeros_like(path)
+    share = np.concatenate([[0.0], np.cumsum(steps)])[:, None] / way
+    chord = path[-1] - path[0]
+    bend = path - (path[0] + share * chord)
+    length = float(np.linalg.norm(chord))
+    if direct:
+        return -STRAIGHTER * min(2.0 * length / way, 1.0) * bend
+    out, aside = _across(chord, bend)
+    arc = BOW * np.sin(np.pi * share) * out
+    weave = WEAVE * np.sin(2.0 * np.pi * share) * np.sin(np.pi * share) * aside
+    return BENT_MORE * bend + length * (arc + weave)
+
+
+def _most_beside(arm_m: FloatArray, shape: FloatArray, nearest_m: float) -> float:
+    """Return how much of a displacement leads a hand no nearer to its shoulder than a distance.
+
+    Where it is nearer anyway, it may come nearer still, by a fifth. Through the shoulder, an arm
+    would turn over.
+
+    Parameters
+    ----------
+    arm_m, shape
+        ``(n, 3)`` from shoulder to hand, and what is added to it.
+    """
+    far = np.sum(arm_m * arm_m, axis=-1)
+    least = np.minimum(nearest_m**2, 0.64 * far)
+    inward, size = -np.sum(arm_m * shape, axis=-1), np.sum(shape * shape, axis=-1)
+    inside = inward * inward - size * (far - least)
+    meets = (inward > 0.0) & (inside > 0.0)
+    if not meets.any():
+        return np.inf
+    return float(((inward[meets] - np.sqrt(inside[meets])) / size[meets]).min())
 
 
 def _across(chord: FloatArray, bend: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -88,21 +164,34 @@ def _across(chord: FloatArray, bend: FloatArray) -> tuple[FloatArray, FloatArray
     return out, np.cross(along, out)
 
 
-def with_hands_redrawn(clip: Clip, body: Body, space: float, bearing: FloatArray) -> Clip:
-    """Return a clip whose hands' paths are straighter, or wander, in the chest's coordinate frame.
+def with_hands_redrawn(clip: Clip, study: Study, space: float) -> Clip:
+    """Return a clip whose hands' paths are straighter, or wander, as seen from the ground root.
+
+    It is seen from there that a path is straight; a chest that bows bends it. A hand that bears
+    weight stays, and none goes under the ground. Where the execution begins and ends, the body is
+    at an extreme of its way, and at its aim: paths lead through there.
 
     Parameters
     ----------
+    clip
+        The study's, its trunk as it is to be.
     space
         As in `redrawn`.
-    bearing
-        ``(n, a)`` how surely each arm's hand rests on the ground: it stays there.
     """
-    local = clip.rotation_xyzw, clip.translation_m
-    chest_q, chest = (part[:, 0] for part in joints_in_world(clip.skeleton, [body.chest], *local))
-    poses = arm_poses(clip, body.arms)
-    for arm, pose, rests in zip(body.arms, poses, bearing.T, strict=True):
-        seen = rotate(inverse(chest_q), pose.hand_m - chest)
-        offset = rotate(chest_q, redrawn(seen, space, clip.rate_hz))
-        clip = with_hand_moved(clip, arm, pose, (1.0 - rests)[:, None] * offset)
-    return clip
+    arms, root = study.body.arms, clip.rotation_xyzw[:, :1]
+    if not arms:
+        return clip
+    through = [] if clip.cyclic else sorted(set(clip.stage_end_frames[1:3].tolist()))
+    pose, there = arm_poses(clip, arms), study.hands_m
+    path, shoulder = (
+        rotate(inverse(root), place_m - clip.translation_m[:, :1])
+        for place_m in (there, pose.shoulder_m)
+    )
+    offset = np.empty_like(path)
+    for i, arm in enumerate(arms):
+        free = 1.0 - study.bearing[:, i]
+        held = Held(free, shoulder[:, i], arm.limb.reach_m, through)
+        offset[:, i] = redrawn(path[:, i], space, clip.rate_hz, held)
+    wanted = there + rotate(root, offset)
+    wanted[..., 1] = np.maximum(wanted[..., 1], np.minimum(there[..., 1], TOUCHING_M))
+    return with_hands_moved(clip, arms, pose, wanted - pose.hand_m)
