@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from actions_library.authoring.clips import humanoid_clips
-from actions_library.authoring.feet import FootShape
 from actions_library.authoring.humanoid import humanoid_skeleton
-from actions_library.authoring.limbs import foot_shape
+from actions_library.authoring.mass import SIDES, centre_of_mass
+from actions_library.authoring.soles import SEATED_M, sole_parts, soles_in_world
 from actions_library.folder import load_library
 from actions_library.importers import import_file
 from smd.character.character import Character
@@ -33,23 +33,7 @@ from smd.geometry.rotations import (
     sign_continuous,
 )
 
-TOE_LENGTH_M = 0.088
-FOOT_HALF_WIDTH_M = 0.040
 SLOW_M_S = 0.10
-SEATED_M = 0.30
-SIDES = ("left", "right")
-SEGMENTS = (
-    ("hips", "upper_chest", 0.497, 0.60),
-    ("neck", "head", 0.081, 1.60),
-    ("{side}_upper_arm", "{side}_lower_arm", 0.028, 0.436),
-    ("{side}_lower_arm", "{side}_hand", 0.016, 0.430),
-    ("{side}_hand", "{side}_fingers", 0.006, 0.506),
-    ("{side}_upper_leg", "{side}_lower_leg", 0.100, 0.433),
-    ("{side}_lower_leg", "{side}_foot", 0.0465, 0.433),
-    ("{side}_foot", "{side}_toes", 0.0145, 0.500),
-)
-"""From joint, to joint, share of the body's mass, place of its centre on the way."""
-
 
 LIMITS_DEG = {
     "neck yaw": (-80.0, 80.0),
@@ -166,37 +150,9 @@ def contact_speed_m_s(clip: Clip, position: FloatArray) -> float:
     return worst
 
 
-def sole_points(shape: FootShape) -> tuple[FloatArray, FloatArray]:
-    """Return sole points from the ankle (heel, ball) and from the toes' joint (ball, tip)."""
-    aside = FOOT_HALF_WIDTH_M * np.array([1.0, 0.0, 0.0])
-    toe_height = shape.ankle_height + shape.ball[1]
-    ball = np.array([shape.ball[0], -shape.ankle_height, shape.ball[2]])
-    tip = np.array([0.0, -toe_height, TOE_LENGTH_M])
-    root = np.array([0.0, -toe_height, 0.0])
-    return np.stack([shape.heel, ball + aside, ball - aside]), np.stack(
-        [root + aside, root - aside, tip]
-    )
-
-
-def _sole_parts(clip: Clip) -> list[tuple[str, FloatArray]]:
-    """Return each foot and toes joint with its sole points."""
-    return [
-        (f"{side}_{joint}", points)
-        for side in SIDES
-        for joint, points in zip(
-            ("foot", "toes"), sole_points(foot_shape(clip.skeleton, side)), strict=True
-        )
-    ]
-
-
 def lowest_sole_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> float:
     """Return the least height of any sole point over the clip."""
-    lowest = np.inf
-    for joint, local in _sole_parts(clip):
-        j = clip.skeleton.index(joint)
-        world = position[:, j, None] + rotate(rotation[:, j, None], local)
-        lowest = min(lowest, float(world[..., 1].min()))
-    return lowest
+    return float(soles_in_world(clip.skeleton, rotation, position)[..., 1].min())
 
 
 def joint_velocity_rad_s(clip: Clip) -> FloatArray:
@@ -213,22 +169,6 @@ def seam_kink(clip: Clip) -> float:
     return float(jumps[-1].max() / jumps[:-1].max())
 
 
-def centre_of_mass(clip: Clip, position: FloatArray) -> FloatArray:
-    """Return the body's centre of mass, ``(n, 3)``, from the shares of its segments [1]_.
-
-    References
-    ----------
-    .. [1] D. A. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed., table 4.1.
-    """
-    total, mass = np.zeros((len(clip), 3)), 0.0
-    for start, end, share, along in SEGMENTS:
-        for side in SIDES if "{side}" in start + end else SIDES[:1]:
-            a, b = (position[:, clip.skeleton.index(j.format(side=side))] for j in (start, end))
-            total += share * (a + along * (b - a))
-            mass += share
-    return total / mass
-
-
 def off_balance_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> float:
     """Return how far the centre of mass leaves the planted soles while the body is slow.
 
@@ -236,14 +176,14 @@ def off_balance_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> flo
     """
     from scipy.spatial import ConvexHull
 
-    centre = centre_of_mass(clip, position)
+    centre = centre_of_mass(clip.skeleton, position)
     speed = np.linalg.norm(np.gradient(centre, 1.0 / clip.rate_hz, axis=0), axis=-1)
     worst = 0.0
     standing = position[:, clip.skeleton.index("hips"), 1] > SEATED_M
     for frame in np.flatnonzero((speed < SLOW_M_S) & standing):
         soles = [
             position[frame, j] + rotate(rotation[frame, j], local)
-            for joint, local in _sole_parts(clip)
+            for joint, local in sole_parts(clip.skeleton)
             if joint in clip.contact_joints
             and clip.contacts[frame, clip.contact_joints.index(joint)]
             for j in [clip.skeleton.index(joint)]
