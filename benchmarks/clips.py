@@ -19,6 +19,7 @@ from actions_library.authoring.mass import SIDES, centre_of_mass
 from actions_library.authoring.soles import SEATED_M, sole_parts, soles_in_world
 from actions_library.folder import load_library
 from actions_library.importers import import_file
+from benchmarks.weight import HEADER, columns, weigh
 from smd.character.character import Character
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
@@ -277,6 +278,9 @@ def main() -> None:
             f" {1e3 * q.off_balance_m:7.1f} {q.hand_log_jerk:5.1f}"
             f" {1e3 * lowest_of_body_m(clip, character):7.0f}"
         )
+    print(f"\n{HEADER}")
+    for clip in humanoid_clips(humanoid_skeleton()):
+        print(f"{clip.name:16s} {columns(weigh(clip))}")
     if (jerk := captured_hand_log_jerk()) is not None:
         print(f"a cycle of CMU's captured walk: hand LDJ {jerk:.1f}")
 

@@ -1,4 +1,4 @@
-"""Where a body's mass is."""
+"""Where a body's mass is, and where the ground must push for it to move as it does."""
 
 from __future__ import annotations
 
@@ -22,6 +22,9 @@ SEGMENTS = (
 """From joint, to joint, share of the body's mass, place of its centre on the way."""
 
 
+GRAVITY_M_S2 = 9.81
+
+
 def centre_of_mass(skeleton: Skeleton, position: FloatArray) -> FloatArray:
     """Return the body's centre of mass, ``(n, 3)``, from the shares of its segments [1]_.
 
@@ -41,3 +44,29 @@ def centre_of_mass(skeleton: Skeleton, position: FloatArray) -> FloatArray:
             total += share * (a + along * (b - a))
             mass += share
     return total / mass
+
+
+def zero_moment_point(centre_m: FloatArray, acceleration_m_s2: FloatArray) -> FloatArray:
+    """Return where the force of the ground on a mass passes through the ground [1]_.
+
+    A mass does not turn, so the force points to it. In free fall there is no such place; there
+    the pull is taken as 1 m/s².
+
+    Parameters
+    ----------
+    centre_m, acceleration_m_s2
+        Of mass, ``(n, 3)``.
+
+    Returns
+    -------
+    (n, 2) float64
+        Left and ahead, in metres.
+
+    References
+    ----------
+    .. [1] M. Vukobratović and B. Borovac, "Zero-Moment Point: thirty-five years of its life",
+       Int. J. Humanoid Robotics 1, 2004.
+    """
+    pull = np.maximum(acceleration_m_s2[:, 1:2] + GRAVITY_M_S2, 1.0)
+    level = centre_m[:, 1:2] * acceleration_m_s2[:, [0, 2]] / pull
+    return np.asarray(centre_m[:, [0, 2]] - level)

@@ -18,7 +18,7 @@ ON_GROUND_M = 0.010
 """Height of a point of a sole up to which it carries."""
 
 SEATED_M = 0.30
-"""Height of the hips below which a body rests on more than its soles."""
+"""Height of the trunk's joints below which a body rests on more than its soles."""
 
 PROPPED_M = 0.12
 """Height of a wrist below which a hand carries too."""
@@ -58,6 +58,7 @@ def soles_in_world(skeleton: Skeleton, rotation: FloatArray, position: FloatArra
 
 def on_more_than_soles(skeleton: Skeleton, position: FloatArray) -> BoolArray:
     """Return in which frames the body also rests on its seat, its back or its hands, ``(n,)``."""
-    hips = position[:, skeleton.index("hips"), 1]
-    hands = np.stack([position[:, skeleton.index(f"{side}_hand"), 1] for side in SIDES])
-    return np.asarray((hips < SEATED_M) | (hands.min(axis=0) < PROPPED_M))
+    trunk = [skeleton.index(name) for name in ("hips", "spine", "upper_chest", "head")]
+    hands = [skeleton.index(f"{side}_hand") for side in SIDES]
+    low = position[:, trunk, 1].min(axis=1) < SEATED_M
+    return np.asarray(low | (position[:, hands, 1].min(axis=1) < PROPPED_M))
