@@ -25,6 +25,9 @@ from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quater
 READ_HZ, CUTOFF_HZ = 24.0, 6.0
 FAR_OUTSIDE_M = 0.20
 SHORTEST_FLIGHT_S = 0.10
+_SURELY = 9
+"""Frames, at 60 Hz, about one in which the soles carry: the low-pass smears take-offs."""
+
 _STILL_M = 1e-5
 """By how much a mass centre that sinks no more may sink in a frame."""
 
@@ -79,6 +82,8 @@ class ClipWeight:
     Attributes
     ----------
     acceleration_p99_m_s2, acceleration_max_m_s2 : of the mass centre, over the ground.
+    least_load : of the weight, what the ground carries at least while the body is on it; below 0
+        it would have to pull. None where soles never carry for long.
     outside_p95_m : of the zero moment point, from the soles; None where soles alone never carry.
     outside_share : of the frames on soles alone, where that is more than `FAR_OUTSIDE_M`.
     flights : in the order of time.
@@ -87,6 +92,7 @@ class ClipWeight:
 
     acceleration_p99_m_s2: float
     acceleration_max_m_s2: float
+    least_load: float | None
     outside_p95_m: float | None
     outside_share: float | None
     flights: tuple[FlightFigures, ...]
@@ -100,6 +106,8 @@ class ClipWeight:
 
 def weigh(clip: Clip) -> ClipWeight:
     """Return a clip's figures."""
+    from scipy.ndimage import minimum_filter1d
+
     rotation, position = forward_kinematics(clip.skeleton, *_played(clip))
     skeleton, rate_hz = clip.skeleton, clip.rate_hz
     centre = centre_of_mass(skeleton, position)
@@ -115,10 +123,13 @@ def weigh(clip: Clip) -> ClipWeight:
     level = np.linalg.norm(acceleration[:, [0, 2]], axis=1)[told]
     moment = zero_moment_point(at, acceleration)
     outside = np.linalg.norm(support_of(soles[near]).nearest_m(moment) - moment, axis=1)
+    standing = told & (minimum_filter1d(carried.astype(int), _SURELY)[near] > 0)
+    load = 1.0 + acceleration[standing, 1] / GRAVITY_M_S2
     outside = outside[told & carried[near] & ~propped[near]]
     return ClipWeight(
         acceleration_p99_m_s2=float(np.percentile(level, 99)),
         acceleration_max_m_s2=float(level.max()),
+        least_load=float(load.min()) if len(load) else None,
         outside_p95_m=float(np.percentile(outside, 95)) if len(outside) else None,
         outside_share=float(np.mean(outside > FAR_OUTSIDE_M)) if len(outside) else None,
         flights=_flights(clip, position, centre, carried | propped),
@@ -236,17 +247,18 @@ def turning_rad_s(clip: Clip, part: str) -> FloatArray:
 
 
 HEADER = """\
-clip               a p99  a max  outside    far  flights: fall, crouch, landing, knee; fastest parts
-                    m/s2   m/s2   cm p95           g, cm, s, deg; ms before the strike"""
+clip               a p99  a max load  outside    far  flights: fall, crouch, landing, knee; fastest
+                    m/s2   m/s2    g   cm p95         g, cm, s, deg; ms before the strike"""
 
 
 def columns(weight: ClipWeight) -> str:
     """Return a clip's figures as columns."""
     text = f"{weight.acceleration_p99_m_s2:6.1f} {weight.acceleration_max_m_s2:6.1f}"
+    text += 5 * " " if weight.least_load is None else f" {weight.least_load:4.1f}"
     if weight.outside_p95_m is None or weight.outside_share is None:
         text += 15 * " "
     else:
-        text += f" {100 * weight.outside_p95_m:7.1f} {100 * weight.outside_share:5.1f}%"
+        text += f" {100 * weight.outside_p95_m:8.1f} {100 * weight.outside_share:5.1f}%"
     for flight in weight.flights:
         text += f"  {flight.gravity:.2f} {100 * flight.crouch_m:.0f} {flight.landing_s:.2f}"
         text += f" {flight.landing_knee_deg:.0f}"
