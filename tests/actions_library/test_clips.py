@@ -8,6 +8,7 @@ from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.humanoid import humanoid_skeleton
 from actions_library.authoring.mass import centre_of_mass
 from benchmarks.clips import Quality, measure
+from benchmarks.weight import BLOWS, ClipWeight, weigh
 from smd.character.clip import STAGES, Clip
 from smd.character.kinematics import forward_kinematics
 from smd.geometry.rotations import (
@@ -49,6 +50,11 @@ def clip(request: pytest.FixtureRequest) -> Clip:
 @pytest.fixture(scope="module")
 def quality(clip: Clip) -> Quality:
     return measure(clip)
+
+
+@pytest.fixture(scope="module")
+def weight(clip: Clip) -> ClipWeight:
+    return weigh(clip)
 
 
 def world(clip: Clip) -> tuple[np.ndarray, np.ndarray]:
@@ -96,6 +102,36 @@ def test_a_slow_body_is_over_its_feet(clip, quality):
     if clip.name == "push":
         pytest.skip("a push leans on what it pushes")
     assert quality.off_balance_m <= 0.020
+
+
+def test_the_ground_could_push_the_body_as_it_moves(weight):
+    assert weight.acceleration_max_m_s2 <= 8.0
+    assert weight.least_load is None or weight.least_load >= 0.1
+    if weight.outside_p95_m is not None:
+        assert weight.outside_p95_m <= 0.35
+        assert weight.outside_share <= 0.08
+
+
+def test_who_flies_falls_as_the_earth_pulls(weight):
+    for flight in weight.flights:
+        assert 0.8 <= flight.gravity <= 1.3
+
+
+@pytest.mark.parametrize("name", ["jump", "leap", "cheer"])
+def test_a_jump_is_carried_by_a_crouch_before_it_and_knees_that_yield_after(name):
+    flights = weigh(CLIPS[name]).flights
+    assert flights
+    for flight in flights:
+        assert flight.crouch_m >= 0.20
+        assert flight.landing_s >= 0.25
+        assert flight.landing_knee_deg >= 60.0
+
+
+@pytest.mark.parametrize("name", sorted(BLOWS))
+def test_a_blow_goes_from_the_hips_over_the_chest_to_the_arm(name):
+    when_s = weigh(CLIPS[name]).chain_s
+    assert len(when_s) == len(BLOWS[name])
+    assert list(when_s) == sorted(set(when_s), reverse=True)
 
 
 def test_the_root_stands_on_the_ground_and_only_turns_about_the_vertical(clip):
