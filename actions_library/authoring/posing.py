@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from actions_library.authoring.feet import FootPath, Plant, foot_path
+from actions_library.authoring.feet import FootPath, FootShape, Plant, foot_path
 from actions_library.authoring.keys import PARTS, Key, part_curve
 from actions_library.authoring.limbs import (
     foot_shape,
@@ -58,9 +58,8 @@ def make_clip(
     right_palm: Sequence[Plant] = (),
     stage_ends_s: Sequence[float],
     cyclic: bool = False,
-    carried: bool = True,
 ) -> Clip:
-    """Pose the humanoid at every frame and return the clip.
+    """Pose the humanoid at every frame and return the clip; its hips follow its weight.
 
     Parameters
     ----------
@@ -73,9 +72,6 @@ def make_clip(
         Plants in the clip's world, covering the clip's time; of a palm, those of the wrist.
     stage_ends_s
         When each of the five stages ends; the last is the clip's end.
-    carried
-        Whether the hips are moved so that the feet carry the body. Not where it leans on
-        something else.
     """
     frames = len(ground.yaw_rad)
     numbers = {
@@ -88,16 +84,10 @@ def make_clip(
             if part in numbers:
                 numbers[part] = _carried(numbers[part], part, ground)
     time_s = np.arange(frames) / RATE_HZ
-    feet = {
-        side: foot_path(plants, foot_shape(skeleton, side), out, time_s) if plants else None
-        for side, out, plants in (("left", 1.0, left_foot), ("right", -1.0, right_foot))
-    }
-    palms = {
-        side: foot_path(plants, palm_shape(skeleton, side), out, time_s) if plants else None
-        for side, out, plants in (("left", 1.0, left_palm), ("right", -1.0, right_palm))
-    }
+    feet = _paths(skeleton, foot_shape, left_foot, right_foot, time_s)
+    palms = _paths(skeleton, palm_shape, left_palm, right_palm, time_s)
     pose = _posed(skeleton, numbers, ground, feet, palms)
-    if carried and any(feet.values()):
+    if any(feet.values()):
         for _ in range(_ROUNDS):
             shift = shift_of_hips(_on_feet(pose, feet, cyclic=cyclic))
             numbers["place"] = numbers["place"] + shift
@@ -118,6 +108,20 @@ def make_clip(
         contacts=np.array(list(contacts.values()), dtype=bool).reshape(-1, frames).T,
         cyclic=cyclic,
     )
+
+
+def _paths(
+    skeleton: Skeleton,
+    shape_of: Callable[[Skeleton, str], FootShape],
+    left: Sequence[Plant],
+    right: Sequence[Plant],
+    time_s: FloatArray,
+) -> dict[str, FootPath | None]:
+    """Return the ways of both feet, or of both palms; None where there are no plants."""
+    return {
+        side: foot_path(plants, shape_of(skeleton, side), out, time_s) if plants else None
+        for side, out, plants in (("left", 1.0, left), ("right", -1.0, right))
+    }
 
 
 def _posed(

@@ -33,8 +33,8 @@ FOLLOWS = 0.85
 """By how much of the hips' way the mass centre goes along while the feet stay."""
 
 BEYOND_M = 0.10
-"""How far outside the soles the zero moment point may be: a mass centre does not turn as a body
-does, and in real walks, boxing and a slash its point is 3 to 38 cm outside in one frame of 20."""
+"""How far outside the soles the zero moment point may be. A mass centre does not turn as a body
+does: of real movement, too, it is a little outside."""
 
 _INNER = 0.85
 """Share of the soles' area over which a slow mass centre is sought."""

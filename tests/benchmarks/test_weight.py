@@ -7,7 +7,7 @@ from actions_library.authoring.humanoid import humanoid_skeleton
 from actions_library.authoring.mass import GRAVITY_M_S2, centre_of_mass
 from actions_library.authoring.soles import soles_in_world
 from actions_library.authoring.support import support_of
-from benchmarks.weight import turning_rad_s, weigh
+from benchmarks.weight import over_ground_m_s2, turning_rad_s, weigh
 from smd.character.clip import Clip
 from smd.geometry.rotations import quaternion_about
 
@@ -47,6 +47,14 @@ def test_swaying_has_the_acceleration_and_the_zero_moment_point_of_a_sine():
     expected = np.linalg.norm(point - soles.nearest_m(point))  # the soles sway along
     assert weight.outside_p95_m == pytest.approx(expected, abs=0.002)
     assert weight.outside_share == pytest.approx(0.75, abs=0.1)
+
+
+def test_a_capture_is_read_as_a_clip():
+    time_s = np.arange(361) / 90.0  # at another rate
+    centre = np.column_stack([0.2 * np.sin(2.0 * np.pi * time_s), time_s, time_s])
+    read = np.sinc(2.0 / 24.0) ** 2
+    greatest = over_ground_m_s2(centre, 90.0).max()
+    assert greatest == pytest.approx(0.2 * (2.0 * np.pi) ** 2 * read, rel=0.01)
 
 
 @pytest.mark.parametrize("gravity", [0.5, 1.0, 1.4])

@@ -237,7 +237,7 @@ def push(skeleton: Skeleton) -> Clip:
         ),
         Key(  # gathers
             0.78,
-            place=Place(left=0.000, up=-0.125, ahead=-0.085),
+            place=Place(left=0.000, up=-0.135, ahead=-0.065),
             hips=Turn(yaw=-6.0, lean=12.0),
             chest=Turn(yaw=-2.0, lean=16.0),
             head=Turn(lean=12.0),
@@ -282,7 +282,7 @@ def push(skeleton: Skeleton) -> Clip:
             LEFT_STANCE,
             land=0.74,
             leave=1.74,
-            ahead=0.30,
+            ahead=0.28,
             yaw=2.0,
             land_pitch=-12.0,
             flat=0.08,
