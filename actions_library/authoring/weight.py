@@ -91,21 +91,21 @@ def shift_of_hips(body: CarriedBody) -> FloatArray:
     of the correction. In the air only free fall is asked for. Upwards, free fall and the legs'
     reach are.
     """
-    a = _asked_of(body)
-    shift = np.zeros((len(a.rows), 3))
-    shift[:, 1] = _upward(a)
-    shift[:, [0, 2]] = _aside(a)
-    own = np.arange(len(body.centre_m)) % len(a.rows)
+    rows = _rows_of(body)
+    shift = np.zeros((len(rows.frame), 3))
+    shift[:, 1] = _upward(rows)
+    shift[:, [0, 2]] = _aside(rows)
+    own = np.arange(len(body.centre_m)) % len(rows.frame)
     return shift[own if body.cyclic else own + _stands(body)]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Asked:
+class _Rows:
     """What is looked at, in ``m`` rows: one cycle, or the clip between two times of standing.
 
     Attributes
     ----------
-    rows : (m,) the frame of each.
+    frame : (m,) of each.
     centre, speed, acceleration : (m, 3) of the mass, softened.
     support : of these rows.
     stands, air : (m, 1) 1 where soles alone carry, and where nothing does; else 0.
@@ -115,7 +115,7 @@ class _Asked:
     size : (k, k) what the correction itself costs.
     """
 
-    rows: IntArray
+    frame: IntArray
     centre: FloatArray
     speed: FloatArray
     acceleration: FloatArray
@@ -128,74 +128,74 @@ class _Asked:
     size: FloatArray
 
 
-def _asked_of(body: CarriedBody) -> _Asked:
+def _rows_of(body: CarriedBody) -> _Rows:
     frames, stands = len(body.centre_m), _stands(body)
-    rows = np.arange(frames - 1)
+    frame = np.arange(frames - 1)
     moves = np.eye(frames - 1)
     if not body.cyclic:
-        rows = np.clip(np.arange(-stands, frames + stands), 0, frames - 1)
-        moves = np.eye(len(rows))[:, stands + _STILL : stands + frames - _STILL]
-    second = _second_derivative(len(rows), body)
-    centre, speed, acceleration = _read(body, rows, second)
-    carries, free = body.support.carries[rows], body.free[rows]
+        frame = np.clip(np.arange(-stands, frames + stands), 0, frames - 1)
+        moves = np.eye(len(frame))[:, stands + _STILL : stands + frames - _STILL]
+    second = _second_derivative(len(frame), body)
+    centre, speed, acceleration = _read(body, frame, second)
+    carries, free = body.support.carries[frame], body.free[frame]
     bend = second @ moves
     rougher = (np.roll(bend, -1, axis=0) - bend) * body.rate_hz
     faster, air = FOLLOWS * bend, (~carries & ~free)[:, None].astype(float)
     size = _LEAST * np.eye(moves.shape[1]) + _SMOOTH * rougher.T @ rougher
-    return _Asked(
-        rows=rows,
+    return _Rows(
+        frame=frame,
         centre=centre,
         speed=speed,
         acceleration=acceleration,
-        support=SupportArea(body.support.corner_m[rows], carries),
+        support=SupportArea(body.support.corner_m[frame], carries),
         stands=(carries & ~free)[:, None].astype(float),
         air=air,
-        room=body.room_m[rows],
+        room=body.room_m[frame],
         moves=moves,
         faster=faster,
         size=size + faster.T @ (_AIR * air * faster),
     )
 
 
-def _upward(a: _Asked) -> FloatArray:
+def _upward(rows: _Rows) -> FloatArray:
     """Return the hips' shift upwards, ``(m,)``: hips that are too high are brought down."""
-    falls = a.faster.T @ (_AIR * a.air[:, 0] * (-GRAVITY_M_S2 - a.acceleration[:, 1]))
-    room = np.where(np.isfinite(a.room), a.room, 0.0)
-    up = np.linalg.solve(a.size, falls)
+    falls = rows.faster.T @ (_AIR * rows.air[:, 0] * (-GRAVITY_M_S2 - rows.acceleration[:, 1]))
+    room = np.where(np.isfinite(rows.room), rows.room, 0.0)
+    up = np.linalg.solve(rows.size, falls)
     for _ in range(_REACH_STEPS):
-        high = _REACH * (a.moves @ up > a.room)[:, None] * a.moves
-        up = np.linalg.solve(a.size + high.T @ a.moves, falls + high.T @ room)
-    return np.asarray(a.moves @ up)
+        high = _REACH * (rows.moves @ up > rows.room)[:, None] * rows.moves
+        up = np.linalg.solve(rows.size + high.T @ rows.moves, falls + high.T @ room)
+    return np.asarray(rows.moves @ up)
 
 
-def _aside(a: _Asked) -> FloatArray:
+def _aside(rows: _Rows) -> FloatArray:
     """Return the hips' shift to the left and ahead, ``(m, 2)``.
 
     Each step is one of least squares, toward the nearest place at which nothing would cost.
     """
-    centre, acceleration = a.centre[:, [0, 2]], a.acceleration[:, [0, 2]]
-    pull = a.centre[:, 1:2] / np.maximum(a.acceleration[:, 1:2] + GRAVITY_M_S2, 1.0)
-    along, faster = FOLLOWS * a.moves, a.faster
+    centre, acceleration = rows.centre[:, [0, 2]], rows.acceleration[:, [0, 2]]
+    pull = rows.centre[:, 1:2] / np.maximum(rows.acceleration[:, 1:2] + GRAVITY_M_S2, 1.0)
+    along, faster = FOLLOWS * rows.moves, rows.faster
     further = along - pull * faster
-    slow = 1.0 / (1.0 + (np.linalg.norm(a.speed, axis=1, keepdims=True) / _SLOW_M_S) ** 4)
-    over, inner = _OVER * a.stands * slow, a.support.shrunk(_INNER)
-    floats = faster.T @ (_AIR * a.air * -acceleration)
+    slow = 1.0 / (1.0 + (np.linalg.norm(rows.speed, axis=1, keepdims=True) / _SLOW_M_S) ** 4)
+    over, inner = _OVER * rows.stands * slow, rows.support.shrunk(_INNER)
+    floats = faster.T @ (_AIR * rows.air * -acceleration)
 
-    cost = a.size + further.T @ (a.stands * further) + along.T @ (over * along)
+    cost = rows.size + further.T @ (rows.stands * further) + along.T @ (over * along)
     solve = np.linalg.inv(cost + _STEADY * faster.T @ faster)
-    aside = last = np.zeros((a.moves.shape[1], 2))
+    aside = last = np.zeros((rows.moves.shape[1], 2))
     for step in range(_STEPS):
         aside, last = aside + step / (step + 3.0) * (aside - last), aside  # hurried on [3]_
         moved, asked = along @ aside, acceleration + faster @ aside
         moment = centre + moved - pull * asked
-        outside = a.support.nearest_m(moment) - moment
+        outside = rows.support.nearest_m(moment) - moment
         far = np.maximum(np.linalg.norm(outside, axis=1, keepdims=True), BEYOND_M)
-        nearer = a.stands * (outside * (1.0 - BEYOND_M / far) + further @ aside)
+        nearer = rows.stands * (outside * (1.0 - BEYOND_M / far) + further @ aside)
         above = over * (inner.nearest_m(centre + moved) - centre)
         much = np.maximum(np.linalg.norm(asked, axis=1, keepdims=True) / STEADIEST_M_S2, 1.0)
         slower = _STEADY * (asked / much - acceleration)
         aside = solve @ (further.T @ nearer + along.T @ above + faster.T @ slower + floats)
-    return np.asarray(a.moves @ aside)
+    return np.asarray(rows.moves @ aside)
 
 
 def _stands(body: CarriedBody) -> int:
@@ -204,17 +204,17 @@ def _stands(body: CarriedBody) -> int:
 
 
 def _read(
-    body: CarriedBody, rows: IntArray, second: FloatArray
+    body: CarriedBody, frame: IntArray, second: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the mass centre's softened way in the world, its velocity and acceleration."""
     from scipy.ndimage import gaussian_filter1d
 
-    steady, travel = np.zeros((len(rows), 3)), np.zeros(3)
+    steady, travel = np.zeros((len(frame), 3)), np.zeros(3)
     if body.cyclic:
-        travel = (body.centre_m[-1] - body.centre_m[0]) / len(rows)
-        steady = np.arange(len(rows))[:, None] * travel
+        travel = (body.centre_m[-1] - body.centre_m[0]) / len(frame)
+        steady = np.arange(len(frame))[:, None] * travel
     mode = "wrap" if body.cyclic else "nearest"
-    in_place = body.centre_m[rows] - steady
+    in_place = body.centre_m[frame] - steady
     way = gaussian_filter1d(in_place, _SOFTEN_S * body.rate_hz, axis=0, mode=mode)
     velocity = 0.5 * (np.roll(way, -1, axis=0) - np.roll(way, 1, axis=0)) + travel
     if not body.cyclic:
