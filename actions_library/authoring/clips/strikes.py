@@ -124,7 +124,7 @@ def punch(skeleton: Skeleton) -> Clip:
 
 def kick(skeleton: Skeleton) -> Clip:
     """Return a front kick with the right leg: knee up, foot out, foot back, down."""
-    duration, off, landed = 1.70, 0.42, 1.28
+    duration, off, landed = 1.76, 0.42, 1.34
     guard = ArmKey(
         to=(0.10, -0.30, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=25.0, curl=140.0
     )
@@ -173,7 +173,7 @@ def kick(skeleton: Skeleton) -> Clip:
             right_leg=replace(out, to=(0.0, -0.24, 1.0)),
         ),
         Key(  # back at the knee
-            1.02,
+            1.08,
             place=Place(left=0.092, up=-0.060, ahead=0.020),
             hips=Turn(yaw=-2.0, lean=-6.0, tilt=3.0),
             chest=Turn(yaw=-4.0, lean=4.0, tilt=-1.0),
@@ -183,7 +183,7 @@ def kick(skeleton: Skeleton) -> Clip:
             right_leg=replace(chambered, to=(0.06, -0.70, 0.45), bend=104.0),
         ),
         Key(
-            1.40,
+            1.46,
             place=Place(left=0.030, up=-0.026, ahead=0.004),
             hips=Turn(yaw=-3.0, lean=3.0, tilt=1.0),
             chest=Turn(yaw=-2.0, lean=4.0),
