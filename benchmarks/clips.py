@@ -2,8 +2,13 @@
 
 Budgets, which the tests defend: planted joints move at most 0.02 m/s, no sole is more than 2 mm
 under the ground, cyclic clips close to 1e-6 rad, knees and elbows bend 0 to 150 degrees, nothing
-turns faster than 30 rad/s, and a slow body is at most 20 mm off its feet: a push leans on what it
-pushes, and who sits or lies rests on more than soles.
+turns faster than 30 rad/s, and a slow body is at most 20 mm off its feet; who sits or lies rests
+on more than soles.
+
+Of the weight (`benchmarks/weight.py`): the mass centre has at most 8 m/s² over the ground, the zero
+moment point is at most 35 cm outside the soles (95th percentile) and more than 20 cm in at most
+8 % of the frames, the soles carry at least a tenth of the weight, flights fall at 0.8 to 1.3 g,
+jumps rise 20 cm from their crouch and yield for 0.25 s, the parts of a blow are fastest in turn.
 """
 
 from __future__ import annotations
@@ -14,11 +19,13 @@ from pathlib import Path
 import numpy as np
 
 from actions_library.authoring.clips import humanoid_clips
-from actions_library.authoring.feet import FootShape
 from actions_library.authoring.humanoid import humanoid_skeleton
-from actions_library.authoring.limbs import foot_shape
+from actions_library.authoring.mass import SIDES, centre_of_mass
+from actions_library.authoring.soles import SEATED_M, sole_parts, soles_in_world
 from actions_library.folder import load_library
 from actions_library.importers import import_file
+from actions_library.importers.imported import Imported
+from benchmarks.weight import HEADER, columns, over_ground_m_s2, weigh
 from smd.character.character import Character
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
@@ -33,23 +40,7 @@ from smd.geometry.rotations import (
     sign_continuous,
 )
 
-TOE_LENGTH_M = 0.088
-FOOT_HALF_WIDTH_M = 0.040
 SLOW_M_S = 0.10
-SEATED_M = 0.30
-SIDES = ("left", "right")
-SEGMENTS = (
-    ("hips", "upper_chest", 0.497, 0.60),
-    ("neck", "head", 0.081, 1.60),
-    ("{side}_upper_arm", "{side}_lower_arm", 0.028, 0.436),
-    ("{side}_lower_arm", "{side}_hand", 0.016, 0.430),
-    ("{side}_hand", "{side}_fingers", 0.006, 0.506),
-    ("{side}_upper_leg", "{side}_lower_leg", 0.100, 0.433),
-    ("{side}_lower_leg", "{side}_foot", 0.0465, 0.433),
-    ("{side}_foot", "{side}_toes", 0.0145, 0.500),
-)
-"""From joint, to joint, share of the body's mass, place of its centre on the way."""
-
 
 LIMITS_DEG = {
     "neck yaw": (-80.0, 80.0),
@@ -64,6 +55,31 @@ LIMITS_DEG = {
 """What a supple body reaches: head from chest, chest from pelvis, thigh from pelvis (bent up is
 above 0), foot from shin (up is above 0). Between a squat and a split there is the pelvis's own
 share, which the bend of the hip includes."""
+
+
+CMU_JOINTS = {
+    "hips": "Hips",
+    "upper_chest": "Spine1",
+    "neck": "Neck1",
+    "head": "Head",
+    **{
+        f"{side.lower()}_{ours}": f"{side}{theirs}"
+        for side in ("Left", "Right")
+        for ours, theirs in {
+            "upper_arm": "Arm",
+            "lower_arm": "ForeArm",
+            "hand": "Hand",
+            "fingers": "FingerBase",
+            "upper_leg": "UpLeg",
+            "lower_leg": "Leg",
+            "foot": "Foot",
+            "toes": "ToeBase",
+        }.items()
+    },
+}
+"""Joints that carry mass, as CMU's captures call them."""
+
+CAPTURES = {"cmu_12_01_walk": "a walk", "01_01": "jumps forward and turns"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,37 +182,9 @@ def contact_speed_m_s(clip: Clip, position: FloatArray) -> float:
     return worst
 
 
-def sole_points(shape: FootShape) -> tuple[FloatArray, FloatArray]:
-    """Return sole points from the ankle (heel, ball) and from the toes' joint (ball, tip)."""
-    aside = FOOT_HALF_WIDTH_M * np.array([1.0, 0.0, 0.0])
-    toe_height = shape.ankle_height + shape.ball[1]
-    ball = np.array([shape.ball[0], -shape.ankle_height, shape.ball[2]])
-    tip = np.array([0.0, -toe_height, TOE_LENGTH_M])
-    root = np.array([0.0, -toe_height, 0.0])
-    return np.stack([shape.heel, ball + aside, ball - aside]), np.stack(
-        [root + aside, root - aside, tip]
-    )
-
-
-def _sole_parts(clip: Clip) -> list[tuple[str, FloatArray]]:
-    """Return each foot and toes joint with its sole points."""
-    return [
-        (f"{side}_{joint}", points)
-        for side in SIDES
-        for joint, points in zip(
-            ("foot", "toes"), sole_points(foot_shape(clip.skeleton, side)), strict=True
-        )
-    ]
-
-
 def lowest_sole_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> float:
     """Return the least height of any sole point over the clip."""
-    lowest = np.inf
-    for joint, local in _sole_parts(clip):
-        j = clip.skeleton.index(joint)
-        world = position[:, j, None] + rotate(rotation[:, j, None], local)
-        lowest = min(lowest, float(world[..., 1].min()))
-    return lowest
+    return float(soles_in_world(clip.skeleton, rotation, position)[..., 1].min())
 
 
 def joint_velocity_rad_s(clip: Clip) -> FloatArray:
@@ -213,22 +201,6 @@ def seam_kink(clip: Clip) -> float:
     return float(jumps[-1].max() / jumps[:-1].max())
 
 
-def centre_of_mass(clip: Clip, position: FloatArray) -> FloatArray:
-    """Return the body's centre of mass, ``(n, 3)``, from the shares of its segments [1]_.
-
-    References
-    ----------
-    .. [1] D. A. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed., table 4.1.
-    """
-    total, mass = np.zeros((len(clip), 3)), 0.0
-    for start, end, share, along in SEGMENTS:
-        for side in SIDES if "{side}" in start + end else SIDES[:1]:
-            a, b = (position[:, clip.skeleton.index(j.format(side=side))] for j in (start, end))
-            total += share * (a + along * (b - a))
-            mass += share
-    return total / mass
-
-
 def off_balance_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> float:
     """Return how far the centre of mass leaves the planted soles while the body is slow.
 
@@ -236,14 +208,14 @@ def off_balance_m(clip: Clip, rotation: FloatArray, position: FloatArray) -> flo
     """
     from scipy.spatial import ConvexHull
 
-    centre = centre_of_mass(clip, position)
+    centre = centre_of_mass(clip.skeleton, position)
     speed = np.linalg.norm(np.gradient(centre, 1.0 / clip.rate_hz, axis=0), axis=-1)
     worst = 0.0
     standing = position[:, clip.skeleton.index("hips"), 1] > SEATED_M
     for frame in np.flatnonzero((speed < SLOW_M_S) & standing):
         soles = [
             position[frame, j] + rotate(rotation[frame, j], local)
-            for joint, local in _sole_parts(clip)
+            for joint, local in sole_parts(clip.skeleton)
             if joint in clip.contact_joints
             and clip.contacts[frame, clip.contact_joints.index(joint)]
             for j in [clip.skeleton.index(joint)]
@@ -304,10 +276,9 @@ def lowest_of_body_m(clip: Clip, character: Character) -> float:
 
 def captured_hand_log_jerk() -> float | None:
     """Return the hands' smoothness in CMU's walk, for comparison; None where it is absent."""
-    path = Path(__file__).parents[2] / "shared" / "data" / "clips" / "bvh" / "cmu_12_01_walk.bvh"
-    if not path.is_file():
+    imported = _captured("cmu_12_01_walk")
+    if imported is None:
         return None
-    imported = import_file(path)
     part = imported.part(imported.animations[0], 1.0, 2.1)  # a cycle
     _, position = forward_kinematics(imported.skeleton, part.rotation_xyzw, part.translation_m)
     hips = position[:, 0]
@@ -317,6 +288,25 @@ def captured_hand_log_jerk() -> float | None:
         )
         for side in ("Left", "Right")
     )
+
+
+def captured_acceleration_m_s2(name: str) -> FloatArray | None:
+    """Return the mass centre's acceleration over the ground in a capture of CMU's, ``(k,)``."""
+    imported = _captured(name)
+    if imported is None:
+        return None
+    skeleton, whole = humanoid_skeleton(), imported.animations[0]
+    part = imported.part(whole, 0.0, whole.duration_s)
+    _, position = forward_kinematics(imported.skeleton, part.rotation_xyzw, part.translation_m)
+    ours = np.zeros((len(position), len(skeleton), 3))
+    for joint, theirs in CMU_JOINTS.items():
+        ours[:, skeleton.index(joint)] = position[:, imported.skeleton.index(theirs)]
+    return over_ground_m_s2(centre_of_mass(skeleton, ours), part.rate_hz)
+
+
+def _captured(name: str) -> Imported | None:
+    path = Path(__file__).parents[2] / "shared" / "data" / "clips" / "bvh" / f"{name}.bvh"
+    return import_file(path) if path.is_file() else None
 
 
 def main() -> None:
@@ -337,6 +327,13 @@ def main() -> None:
             f" {1e3 * q.off_balance_m:7.1f} {q.hand_log_jerk:5.1f}"
             f" {1e3 * lowest_of_body_m(clip, character):7.0f}"
         )
+    print(f"\n{HEADER}")
+    for clip in humanoid_clips(humanoid_skeleton()):
+        print(f"{clip.name:16s} {columns(weigh(clip))}")
+    for name, shown in CAPTURES.items():
+        if (level := captured_acceleration_m_s2(name)) is not None:
+            p99 = np.percentile(level, 99)
+            print(f"CMU's capture of {shown}: {p99:.1f} m/s2 p99, {level.max():.1f} m/s2 max")
     if (jerk := captured_hand_log_jerk()) is not None:
         print(f"a cycle of CMU's captured walk: hand LDJ {jerk:.1f}")
 

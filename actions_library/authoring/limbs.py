@@ -30,6 +30,9 @@ LEG_SOFTNESS = 0.004
 ARM_SOFTNESS = 0.02
 """The same of an arm: where a hand is put, it may fall a little short."""
 
+STRAIGHTEST_DEG = 8.0
+"""Least bend of a knee whose foot is put somewhere."""
+
 HEEL_BEHIND_ANKLE_M = 0.078
 
 WRIST_HEIGHT_M, HEEL_OF_HAND_M = 0.034, 0.012
@@ -198,12 +201,28 @@ def pose_leg(
         ankle = ankle + free[:, None] * (pose.position[:, own[foot]] - ankle)
         turned = slerp(turned, pose.rotation[:, own[foot]], free)
         pole = normalized(pole) + free[:, None] * (normalized(knee) - normalized(pole))
+        away = ankle - base  # halfway between two places that it reaches, it may be out of reach
+        reach = float(limb.span_m(np.radians(STRAIGHTEST_DEG))) / np.linalg.norm(away, axis=-1)
+        ankle = np.where(free[:, None] > 0.0, base + np.minimum(reach, 1.0)[:, None] * away, ankle)
         toes = (1.0 - free) * toes + free * 0.3 * np.radians(_columns(LegKey(), numbers)["point"])
     upper_q, lower_q = two_bone_ik(limb, base, ankle, pole, softness=LEG_SOFTNESS)
     pose.set(upper, upper_q)
     pose.set(lower, lower_q)
     pose.set(foot, turned)
     pose.turn(f"{side}_toes", quaternion_about([1.0, 0.0, 0.0], toes))
+
+
+def leg_room_m(pose: Pose, side: str, path: FootPath) -> FloatArray:
+    """Return how far the hips may rise until a leg is as straight as it gets, ``(n,)``.
+
+    Below 0 they must sink, or the foot falls short. Without limit where the leg has its own keys.
+    """
+    upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
+    limb = limb_of(pose.skeleton, upper, lower, foot, [0.0, 0.0, 1.0])
+    to = path.ankle_m - pose.at(upper)
+    straight = float(limb.span_m(np.radians(STRAIGHTEST_DEG)))
+    aside = np.minimum(to[:, 0] ** 2 + to[:, 2] ** 2, straight**2)
+    return np.where(path.free > 0.0, np.inf, np.sqrt(straight**2 - aside) + to[:, 1])
 
 
 def _free_leg(pose: Pose, side: str, out: float, numbers: FloatArray, limb: Limb) -> None:

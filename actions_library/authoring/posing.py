@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from actions_library.authoring.feet import FootPath, Plant, foot_path
+from actions_library.authoring.feet import FootPath, FootShape, Plant, foot_path
 from actions_library.authoring.keys import PARTS, Key, part_curve
-from actions_library.authoring.limbs import foot_shape, palm_shape, pose_arm, pose_leg
+from actions_library.authoring.limbs import (
+    foot_shape,
+    leg_room_m,
+    palm_shape,
+    pose_arm,
+    pose_leg,
+)
+from actions_library.authoring.mass import SIDES, centre_of_mass
 from actions_library.authoring.pose import Pose
+from actions_library.authoring.soles import on_more_than_soles, soles_in_world
+from actions_library.authoring.support import support_of
+from actions_library.authoring.weight import CarriedBody, shift_of_hips
 from smd.character.clip import Clip
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
@@ -20,6 +30,9 @@ RATE_HZ = 60.0
 
 _SPINE_SHARE = {"spine": 0.30, "chest": 0.65, "upper_chest": 1.0}
 _NECK_SHARE = 0.45
+
+_ROUNDS = 3
+"""How often the hips are moved: the mass centre does not quite follow them."""
 
 Numbers = dict[str, FloatArray]
 
@@ -46,7 +59,7 @@ def make_clip(
     stage_ends_s: Sequence[float],
     cyclic: bool = False,
 ) -> Clip:
-    """Pose the humanoid at every frame and return the clip.
+    """Pose the humanoid at every frame and return the clip; its hips follow its weight.
 
     Parameters
     ----------
@@ -70,21 +83,19 @@ def make_clip(
         for part in ("place", "left_hand", "right_hand"):
             if part in numbers:
                 numbers[part] = _carried(numbers[part], part, ground)
-    pose = Pose(skeleton, frames)
-    _stand_on_ground(pose, ground)
-    _pose_trunk(pose, numbers)
-    contacts = {}
     time_s = np.arange(frames) / RATE_HZ
-    for side, out, plants, palms in (
-        ("left", 1.0, left_foot, left_palm),
-        ("right", -1.0, right_foot, right_palm),
-    ):
-        palm = foot_path(palms, palm_shape(skeleton, side), out, time_s) if palms else None
-        pose_arm(pose, side, out, numbers[f"{side}_arm"], numbers.get(f"{side}_hand"), palm)
-        foot = foot_path(plants, foot_shape(skeleton, side), out, time_s) if plants else None
-        pose_leg(pose, side, out, numbers.get(f"{side}_leg"), foot)
-        contacts.update(_contacts(foot, f"{side}_foot", f"{side}_toes"))
-        contacts.update(_contacts(palm, f"{side}_hand", f"{side}_fingers"))
+    feet = _paths(skeleton, foot_shape, left_foot, right_foot, time_s)
+    palms = _paths(skeleton, palm_shape, left_palm, right_palm, time_s)
+    pose = _posed(skeleton, numbers, ground, feet, palms)
+    if any(feet.values()):
+        for _ in range(_ROUNDS):
+            shift = shift_of_hips(_on_feet(pose, feet, cyclic=cyclic))
+            numbers["place"] = numbers["place"] + shift
+            pose = _posed(skeleton, numbers, ground, feet, palms)
+    contacts = {}
+    for side in SIDES:
+        contacts.update(_contacts(feet[side], f"{side}_foot", f"{side}_toes"))
+        contacts.update(_contacts(palms[side], f"{side}_hand", f"{side}_fingers"))
     rotation, translation = pose.local()
     return Clip(
         name=name,
@@ -95,6 +106,52 @@ def make_clip(
         stage_end_frames=np.round(np.asarray(stage_ends_s) * RATE_HZ).astype(np.int64),
         contact_joints=tuple(contacts),
         contacts=np.array(list(contacts.values()), dtype=bool).reshape(-1, frames).T,
+        cyclic=cyclic,
+    )
+
+
+def _paths(
+    skeleton: Skeleton,
+    shape_of: Callable[[Skeleton, str], FootShape],
+    left: Sequence[Plant],
+    right: Sequence[Plant],
+    time_s: FloatArray,
+) -> dict[str, FootPath | None]:
+    """Return the ways of both feet, or of both palms; None where there are no plants."""
+    return {
+        side: foot_path(plants, shape_of(skeleton, side), out, time_s) if plants else None
+        for side, out, plants in (("left", 1.0, left), ("right", -1.0, right))
+    }
+
+
+def _posed(
+    skeleton: Skeleton,
+    numbers: Numbers,
+    ground: RootCourse,
+    feet: Mapping[str, FootPath | None],
+    palms: Mapping[str, FootPath | None],
+) -> Pose:
+    """Return the pose at every frame."""
+    pose = Pose(skeleton, len(ground.yaw_rad))
+    _stand_on_ground(pose, ground)
+    _pose_trunk(pose, numbers)
+    for side, out in (("left", 1.0), ("right", -1.0)):
+        arm, hand = numbers[f"{side}_arm"], numbers.get(f"{side}_hand")
+        pose_arm(pose, side, out, arm, hand, palms[side])
+        pose_leg(pose, side, out, numbers.get(f"{side}_leg"), feet[side])
+    return pose
+
+
+def _on_feet(pose: Pose, feet: Mapping[str, FootPath | None], *, cyclic: bool) -> CarriedBody:
+    """Return the body's mass centre and what carries it."""
+    rooms = [leg_room_m(pose, side, path) for side, path in feet.items() if path]
+    soles = soles_in_world(pose.skeleton, pose.rotation, pose.position)
+    return CarriedBody(
+        centre_m=centre_of_mass(pose.skeleton, pose.position),
+        support=support_of(soles),
+        free=on_more_than_soles(pose.skeleton, pose.position),
+        room_m=np.min(rooms, axis=0),
+        rate_hz=RATE_HZ,
         cyclic=cyclic,
     )
 

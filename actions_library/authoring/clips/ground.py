@@ -107,16 +107,16 @@ def _crosswise(first: Plant, duration: float, stride: float) -> tuple[list[Plant
 
 def roll(skeleton: Skeleton) -> Clip:
     """Return a forward roll: down onto the hands, over the back, up onto the feet."""
-    duration, far = 2.10, 1.55
-    off, landed = 0.68, 1.36
+    duration, far = 2.52, 1.55
+    off, landed = 0.80, 1.52
     tucked = LegKey(to=(0.10, -0.30, 1.0), bend=128.0, point=20.0)
-    on_ground = Hand(place=(0.20, 0.075, 0.60), fingers=(-0.2, 0.0, 1.0), palm=(0.0, -1.0, 0.1))
+    on_ground = Hand(place=(0.20, 0.088, 0.60), fingers=(-0.2, 0.0, 1.0), palm=(0.0, -1.0, 0.1))
     reaching = ArmKey(to=(0.12, 0.20, 1.0), bend=40.0, elbow=(1.0, -0.6, 0.2), curl=4.0)
     hugging = ArmKey(to=(0.14, -0.62, 0.85), bend=64.0, elbow=(1.0, -0.2, -0.4), curl=40.0)
     keys = [
         STAND,
         Key(  # squats
-            0.32,
+            0.44,
             place=Place(up=-0.330, ahead=-0.03),
             hips=Turn(lean=44.0),
             chest=Turn(lean=64.0),
@@ -129,7 +129,7 @@ def roll(skeleton: Skeleton) -> Clip:
             right_leg=tucked,
         ),
         Key(  # hands down
-            0.54,
+            0.66,
             place=Place(up=-0.380, ahead=0.20),
             hips=Turn(lean=88.0),
             chest=Turn(lean=118.0),
@@ -137,14 +137,14 @@ def roll(skeleton: Skeleton) -> Clip:
             left_hand=on_ground,
             right_hand=on_ground,
         ),
-        Key(0.62, left_hand=on_ground, right_hand=on_ground),
+        Key(0.74, left_hand=on_ground, right_hand=on_ground),
         Key(  # let go before the trunk turns over them
-            0.68,
+            0.80,
             left_hand=replace(on_ground, hold=0.0),
             right_hand=replace(on_ground, hold=0.0),
         ),
         Key(
-            0.72,
+            0.84,
             place=Place(up=-0.200, ahead=0.50),
             hips=Turn(lean=130.0),
             chest=Turn(lean=168.0),
@@ -153,7 +153,7 @@ def roll(skeleton: Skeleton) -> Clip:
             right_leg=tucked,
         ),
         Key(  # over the shoulders
-            0.86,
+            0.98,
             place=Place(up=-0.255, ahead=0.84),
             hips=Turn(lean=178.0),
             chest=Turn(lean=222.0),
@@ -162,14 +162,14 @@ def roll(skeleton: Skeleton) -> Clip:
             right_arm=hugging,
         ),
         Key(
-            1.00,
+            1.12,
             place=Place(up=-0.560, ahead=1.06),
             hips=Turn(lean=232.0),
             chest=Turn(lean=272.0),
             head=Turn(lean=308.0),
         ),
         Key(  # on the seat
-            1.16,
+            1.28,
             place=Place(up=-0.800, ahead=1.16),
             hips=Turn(lean=292.0),
             chest=Turn(lean=330.0),
@@ -179,7 +179,7 @@ def roll(skeleton: Skeleton) -> Clip:
         ),
         Key(
             landed,
-            place=Place(up=-0.700, ahead=1.26),
+            place=Place(up=-0.690, ahead=1.25),
             hips=Turn(lean=352.0),
             chest=Turn(lean=392.0),
             head=Turn(lean=388.0),
@@ -187,7 +187,7 @@ def roll(skeleton: Skeleton) -> Clip:
             right_arm=replace(hugging, to=(0.25, -0.3, 1.0), bend=30.0),
         ),
         Key(  # over the feet
-            1.52,
+            1.76,
             place=Place(up=-0.460, ahead=far - 0.06),
             hips=Turn(lean=396.0),
             chest=Turn(lean=416.0),
@@ -196,7 +196,7 @@ def roll(skeleton: Skeleton) -> Clip:
             right_arm=ArmKey(to=(0.35, -0.7, 0.7), bend=34.0),
         ),
         Key(
-            1.86,
+            2.22,
             place=Place(up=-0.050, ahead=far + 0.01),
             hips=Turn(lean=368.0),
             chest=Turn(lean=368.0),
@@ -224,10 +224,10 @@ def roll(skeleton: Skeleton) -> Clip:
         skeleton,
         "roll",
         keys,
-        moved_in_one_go(duration, 0.40, landed, ahead=far),
+        moved_in_one_go(duration, 0.52, landed, ahead=far),
         left_foot=left,
         right_foot=right,
-        stage_ends_s=(0.0, 0.40, landed, 1.52, duration),
+        stage_ends_s=(0.0, 0.52, landed, 1.76, duration),
     )
 
 
@@ -241,12 +241,17 @@ def _head_over_heels(key: Key) -> Key:
 
 def fall(skeleton: Skeleton) -> Clip:
     """Return a fall onto the back, a moment of lying there, and getting up again."""
-    duration = 3.70
+    duration = 3.95
     flung = ArmKey(to=(0.75, 0.35, 0.75), bend=22.0, elbow=(0.4, -1.0, -0.4), curl=20.0)
     spread = ArmKey(to=(1.0, -0.30, -0.03), bend=22.0, elbow=(0.1, -1.0, -0.2), curl=24.0)
     pushing = ArmKey(
         to=(0.62, -0.45, -0.66), bend=24.0, elbow=(0.5, 0.2, -1.0), flex=-40.0, curl=10.0
     )
+    prop = Hand((0.29, 0.085, -0.62), fingers=(0.75, 0.0, -0.65), palm=(0.0, -1.0, 0.0))
+
+    def both(hand: Hand, at_s: float) -> Key:
+        return Key(at_s, left_hand=hand, right_hand=hand)
+
     keys = [
         STAND,
         Key(  # struck: the chest gives way, the arms stay behind
@@ -260,15 +265,17 @@ def fall(skeleton: Skeleton) -> Clip:
         ),
         Key(  # tipping over the heels
             0.44,
-            place=Place(up=-0.110, ahead=-0.26),
+            place=Place(up=-0.085, ahead=-0.21),
             hips=Turn(lean=-16.0),
             chest=Turn(lean=-18.0, tilt=3.0),
             head=Turn(lean=8.0),
             left_arm=flung,
             right_arm=replace(flung, to=(0.9, 0.10, 0.65)),
         ),
+        Key(0.72, place=Place(up=-0.370, ahead=-0.40)),
+        Key(0.90, place=Place(up=-0.745, ahead=-0.54)),
         Key(  # seat on the ground
-            0.80,
+            0.98,
             place=Place(left=0.01, up=-0.842, ahead=-0.58),
             hips=Turn(lean=-40.0),
             chest=Turn(lean=-26.0),
@@ -277,7 +284,7 @@ def fall(skeleton: Skeleton) -> Clip:
             right_arm=replace(flung, to=(0.9, 0.10, 0.55)),
         ),
         Key(  # back on the ground
-            1.04,
+            1.22,
             place=Place(left=0.01, up=-0.836, ahead=-0.64),
             hips=Turn(lean=-84.0),
             chest=Turn(lean=-84.0),
@@ -286,7 +293,7 @@ def fall(skeleton: Skeleton) -> Clip:
             right_arm=spread,
         ),
         Key(
-            1.16,
+            1.34,
             place=Place(left=0.01, up=-0.838, ahead=-0.645),
             hips=Turn(lean=-88.0),
             chest=Turn(lean=-89.0),
@@ -295,7 +302,7 @@ def fall(skeleton: Skeleton) -> Clip:
             right_arm=replace(spread, to=(1.0, -0.38, -0.03)),
         ),
         Key(  # lies there
-            1.85,
+            2.03,
             place=Place(left=0.01, up=-0.838, ahead=-0.645),
             hips=Turn(lean=-87.0),
             chest=Turn(lean=-86.0),
@@ -303,27 +310,31 @@ def fall(skeleton: Skeleton) -> Clip:
             left_arm=spread,
             right_arm=replace(spread, to=(1.0, -0.38, -0.03)),
         ),
-        Key(  # sits up
-            2.40,
+        both(replace(prop, place=(0.55, 0.12, -0.85), hold=0.0), 2.10),
+        both(prop, 2.46),
+        Key(  # sits up, over the hands
+            2.58,
             place=Place(up=-0.835, ahead=-0.56),
-            hips=Turn(lean=-24.0),
-            chest=Turn(lean=2.0),
-            head=Turn(lean=14.0),
+            hips=Turn(lean=-26.0),
+            chest=Turn(lean=0.0),
+            head=Turn(lean=12.0),
             left_arm=pushing,
             right_arm=pushing,
         ),
+        both(prop, 2.74),
         Key(
-            2.62,
-            place=Place(up=-0.790, ahead=-0.47),
-            hips=Turn(lean=14.0),
+            2.90,
+            place=Place(up=-0.800, ahead=-0.44),
+            hips=Turn(lean=8.0),
             chest=Turn(lean=42.0),
             head=Turn(lean=24.0),
             left_arm=replace(pushing, to=(0.62, -0.50, -0.30)),
             right_arm=replace(pushing, to=(0.62, -0.50, -0.30)),
         ),
+        both(replace(prop, place=(0.36, 0.42, -0.28), hold=0.0), 3.06),
         Key(  # over the feet
-            2.98,
-            place=Place(up=-0.420, ahead=-0.10),
+            3.32,
+            place=Place(up=-0.440, ahead=-0.09),
             hips=Turn(lean=32.0),
             chest=Turn(lean=64.0),
             head=Turn(lean=24.0),
@@ -331,10 +342,10 @@ def fall(skeleton: Skeleton) -> Clip:
             right_arm=ArmKey(to=(0.22, -0.75, 0.75), bend=26.0),
         ),
         Key(
-            3.42,
-            place=Place(left=0.005, up=-0.045, ahead=-0.01),
-            hips=Turn(lean=9.0),
-            chest=Turn(lean=9.0),
+            3.74,
+            place=Place(left=0.005, up=-0.040, ahead=-0.01),
+            hips=Turn(lean=8.0),
+            chest=Turn(lean=8.0),
             head=Turn(lean=7.0),
             left_arm=ArmKey(to=(0.20, -1.0, 0.06), bend=16.0),
             right_arm=ArmKey(to=(0.20, -1.0, 0.08), bend=19.0),
@@ -348,5 +359,5 @@ def fall(skeleton: Skeleton) -> Clip:
         standing_still(duration),
         left_foot=[LEFT_STANCE],
         right_foot=[RIGHT_STANCE],
-        stage_ends_s=(0.0, 0.16, 1.04, 1.16, duration),
+        stage_ends_s=(0.0, 0.16, 1.22, 1.34, duration),
     )

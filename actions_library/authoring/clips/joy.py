@@ -81,17 +81,17 @@ def clap(skeleton: Skeleton) -> Clip:
 
 def cheer(skeleton: Skeleton) -> Clip:
     """Throw both arms up and jump for joy, twice."""
-    duration = 2.60
-    flights = ((0.58, 0.90), (1.26, 1.58))
+    duration = 3.00
+    flights = ((0.64, 0.96), (1.44, 1.76))
     down = ArmKey(to=(0.30, -0.90, 0.35), bend=92.0, elbow=(0.8, -0.3, -1.0), curl=130.0)
     high = ArmKey(to=(0.55, 1.0, 0.12), bend=16.0, elbow=(0.9, -0.3, 0.2), curl=130.0)
     pumped = replace(high, to=(0.60, 0.80, 0.28), bend=60.0)
-    take_off, touch_down = Place(up=-0.006, ahead=0.015), Place(up=-0.055, ahead=0.010)
-    crouch = Place(up=-0.165, ahead=-0.020)
+    take_off, touch_down = Place(up=-0.006, ahead=0.015), Place(up=-0.070, ahead=0.010)
+    crouch = Place(up=-0.200, ahead=-0.025)
     keys = [
         STAND,
         Key(
-            0.40,
+            0.42,
             place=crouch,
             hips=Turn(lean=22.0),
             chest=Turn(lean=30.0),
@@ -99,10 +99,24 @@ def cheer(skeleton: Skeleton) -> Clip:
             left_arm=down,
             right_arm=down,
         ),
-        Key(1.08, place=Place(up=-0.125, ahead=-0.010), left_arm=pumped, right_arm=pumped),
-        Key(1.80, place=Place(up=-0.110, ahead=-0.010), left_arm=high, right_arm=high),
         Key(
-            2.12,
+            1.23,
+            place=Place(up=-0.245, ahead=-0.025),
+            hips=Turn(lean=20.0),
+            chest=Turn(lean=20.0),
+            left_arm=pumped,
+            right_arm=pumped,
+        ),
+        Key(
+            2.04,
+            place=Place(up=-0.225, ahead=-0.025),
+            hips=Turn(lean=18.0),
+            chest=Turn(lean=16.0),
+            left_arm=high,
+            right_arm=high,
+        ),
+        Key(
+            2.48,
             place=Place(up=-0.014, ahead=0.0),
             hips=Turn(lean=2.0),
             chest=Turn(lean=-3.0),
@@ -155,7 +169,7 @@ def cheer(skeleton: Skeleton) -> Clip:
         standing_still(duration),
         left_foot=feet(LEFT_STANCE, 0.0),
         right_foot=feet(RIGHT_STANCE, 0.012),
-        stage_ends_s=(0.0, 0.40, 1.58, 1.80, duration),
+        stage_ends_s=(0.0, 0.42, 1.76, 2.04, duration),
     )
 
 

@@ -20,13 +20,13 @@ from smd.character.skeleton import Skeleton
 
 def jump(skeleton: Skeleton) -> Clip:
     """Return a standing long jump: crouch, swing, flight, landing."""
-    duration, far = 1.90, 1.20
-    crouched, off, landed = 32 / 60, 44 / 60, 73 / 60
+    duration, far = 2.10, 1.20
+    crouched, off, landed, absorbed = 34 / 60, 51 / 60, 77 / 60, 94 / 60
     back = ArmKey(to=(0.35, -0.75, -1.0), bend=12.0, elbow=(0.6, 0.4, -1.0), curl=45.0)
     up = ArmKey(to=(0.28, 1.0, 0.70), bend=18.0, elbow=(0.8, -0.6, -0.2), curl=30.0)
     down = ArmKey(to=(0.34, -0.55, 1.0), bend=30.0, elbow=(0.9, -0.4, -0.4), curl=30.0)
     take_off = Place(up=-0.005, ahead=0.31)
-    touch_down = Place(up=-0.130, ahead=far - 0.16)
+    touch_down = Place(up=-0.165, ahead=far - 0.15)
     keys = [
         STAND,
         Key(  # preparation: tall, arms coming forward
@@ -48,8 +48,8 @@ def jump(skeleton: Skeleton) -> Clip:
             right_arm=replace(back, to=(0.40, -0.80, -1.0), bend=16.0),
         ),
         Key(  # the arms swing through
-            0.62,
-            place=Place(up=-0.225, ahead=0.06),
+            0.70,
+            place=Place(up=-0.235, ahead=0.09),
             left_arm=ArmKey(to=(0.25, -1.0, 0.30), bend=20.0, elbow=(0.6, 0.0, -1.0)),
             right_arm=ArmKey(to=(0.25, -1.0, 0.30), bend=22.0, elbow=(0.6, 0.0, -1.0)),
         ),
@@ -60,9 +60,9 @@ def jump(skeleton: Skeleton) -> Clip:
             chest=Turn(lean=22.0),
             head=Turn(lean=4.0),
         ),
-        Key(0.80, left_arm=up, right_arm=replace(up, to=(0.25, 0.92, 0.8))),
+        Key(off + 0.06, left_arm=up, right_arm=replace(up, to=(0.25, 0.92, 0.8))),
         Key(  # knees up
-            1.00,
+            1.08,
             hips=Turn(lean=14.0),
             chest=Turn(lean=22.0),
             head=Turn(lean=10.0),
@@ -79,16 +79,16 @@ def jump(skeleton: Skeleton) -> Clip:
             right_arm=replace(down, to=(0.38, -0.48, 1.0)),
         ),
         Key(  # absorbed
-            1.42,
-            place=Place(up=-0.32, ahead=far - 0.085),
-            hips=Turn(lean=38.0),
-            chest=Turn(lean=48.0),
+            absorbed,
+            place=Place(up=-0.365, ahead=far - 0.060),
+            hips=Turn(lean=42.0),
+            chest=Turn(lean=54.0),
             head=Turn(lean=18.0),
             left_arm=ArmKey(to=(0.45, -0.9, 0.62), bend=30.0),
             right_arm=ArmKey(to=(0.45, -0.9, 0.70), bend=34.0),
         ),
         Key(
-            1.68,
+            1.88,
             place=Place(left=0.005, up=-0.045, ahead=far + 0.01),
             hips=Turn(lean=7.0),
             chest=Turn(lean=7.0),
@@ -123,7 +123,7 @@ def jump(skeleton: Skeleton) -> Clip:
         moved_in_one_go(duration, crouched, landed, ahead=far),
         left_foot=left,
         right_foot=right,
-        stage_ends_s=(0.20, crouched, landed, 1.42, duration),
+        stage_ends_s=(0.20, crouched, landed, absorbed, duration),
     )
 
 
@@ -188,18 +188,18 @@ def hop(skeleton: Skeleton) -> Clip:
 
 
 def leap(skeleton: Skeleton) -> Clip:
-    """Leap as a dancer does: a step, off the left foot, split in the air, down on the right."""
-    duration, far = 2.20, 2.30
-    stepped, off, landed, closed = 0.34, 0.74, 1.28, 1.80
-    take_off = Place(left=0.015, up=-0.020, ahead=0.62)
-    touch_down = Place(left=-0.020, up=-0.085, ahead=far - 0.22)
+    """Leap as a dancer does: off the left foot, split in the air, down on the right, a step."""
+    duration, far = 2.60, 2.30
+    stepped, off, landed, absorbed, caught = 0.44, 52 / 60, 80 / 60, 1.66, 1.90
+    take_off = Place(left=0.015, up=-0.020, ahead=0.80)
+    touch_down = Place(left=-0.020, up=-0.135, ahead=far - 0.38)
     ahead_leg = LegKey(to=(0.05, -0.42, 1.0), bend=14.0, point=52.0)
     behind_leg = LegKey(to=(0.06, -0.50, -0.95), bend=22.0, knee=(0.25, -0.4, 0.6), point=58.0)
     keys = [
         STAND,
         Key(
-            0.20,
-            place=Place(left=-0.030, up=-0.030, ahead=0.02),
+            0.24,
+            place=Place(left=-0.050, up=-0.040, ahead=0.05),
             hips=Turn(yaw=4.0, lean=3.0),
             chest=Turn(yaw=-3.0, lean=2.0),
             head=Turn(lean=4.0),
@@ -207,15 +207,15 @@ def leap(skeleton: Skeleton) -> Clip:
             right_arm=ArmKey(to=(0.30, -1.0, 0.20), bend=24.0),
         ),
         Key(  # deep on the left leg
-            0.52,
-            place=Place(left=0.030, up=-0.165, ahead=0.34),
+            0.60,
+            place=Place(left=0.030, up=-0.175, ahead=0.42),
             hips=Turn(yaw=-6.0, lean=16.0, tilt=1.0),
             chest=Turn(yaw=8.0, lean=18.0, tilt=0.0),
             head=Turn(lean=6.0),
             left_arm=ArmKey(to=(0.50, -0.75, -0.60), bend=18.0),
             right_arm=ArmKey(to=(0.60, -0.80, -0.40), bend=18.0),
             left_leg=behind_leg,
-            right_leg=replace(ahead_leg, to=(0.02, -0.85, -0.42), bend=104.0, point=4.0),
+            right_leg=replace(ahead_leg, to=(0.02, -0.85, -0.36), bend=118.0, point=4.0),
         ),
         Key(
             off,
@@ -227,7 +227,7 @@ def leap(skeleton: Skeleton) -> Clip:
             right_leg=replace(ahead_leg, to=(0.02, -0.60, 0.9), bend=76.0, point=4.0),
         ),
         Key(  # split
-            1.00,
+            1.08,
             hips=Turn(yaw=-16.0, lean=4.0),
             chest=Turn(yaw=6.0, lean=4.0),
             head=Turn(lean=-3.0),
@@ -245,23 +245,33 @@ def leap(skeleton: Skeleton) -> Clip:
             left_arm=ArmKey(to=(0.70, -0.10, 0.70), bend=22.0, curl=20.0),
             right_arm=ArmKey(to=(0.95, -0.10, 0.05), bend=22.0, curl=20.0),
             left_leg=replace(behind_leg, to=(0.05, -0.8, -0.55), bend=46.0),
-            right_leg=replace(ahead_leg, to=(0.02, -0.9, 0.42), bend=12.0, point=30.0),
+            right_leg=replace(ahead_leg, to=(0.02, -0.9, 0.42), bend=24.0, point=30.0),
         ),
+        Key(1.52, left_leg=replace(behind_leg, to=(0.04, -0.80, -0.45), bend=117.0, point=20.0)),
         Key(  # absorbed, over the right leg
-            1.46,
-            place=Place(left=-0.062, up=-0.190, ahead=far - 0.05),
+            absorbed,
+            place=Place(left=-0.050, up=-0.285, ahead=far - 0.14),
             hips=Turn(yaw=-4.0, lean=20.0, tilt=-4.0),
             chest=Turn(yaw=2.0, lean=24.0, tilt=3.0),
             head=Turn(lean=12.0),
             left_arm=ArmKey(to=(0.60, -0.80, 0.30), bend=26.0),
             right_arm=ArmKey(to=(0.60, -0.75, 0.30), bend=26.0),
-            left_leg=replace(behind_leg, to=(0.04, -0.90, -0.28), bend=96.0, point=4.0),
+            left_leg=replace(behind_leg, to=(0.04, -0.86, 0.26), bend=128.0, point=0.0),
+        ),
+        Key(1.80, left_leg=replace(behind_leg, to=(0.04, -0.84, 0.44), bend=104.0, point=0.0)),
+        Key(  # the left foot catches what is left of the way
+            caught,
+            place=Place(left=0.000, up=-0.120, ahead=far - 0.04),
+            hips=Turn(yaw=-1.0, lean=12.0, tilt=0.0),
+            chest=Turn(yaw=1.5, lean=13.0, tilt=0.0),
+            head=Turn(lean=8.0),
+            left_leg=replace(behind_leg, to=(0.04, -0.90, 0.34), bend=66.0, point=0.0),
         ),
         Key(
-            closed,
-            place=Place(left=-0.050, up=-0.034, ahead=far - 0.01),
-            hips=Turn(yaw=-2.0, lean=6.0, tilt=-2.0),
-            chest=Turn(yaw=1.5, lean=5.0, tilt=1.0),
+            2.20,
+            place=Place(left=0.045, up=-0.034, ahead=far),
+            hips=Turn(yaw=-1.0, lean=5.0, tilt=1.0),
+            chest=Turn(yaw=1.5, lean=4.0),
             head=Turn(lean=5.0),
             left_arm=ArmKey(to=(0.24, -1.0, 0.04), bend=17.0),
             right_arm=ArmKey(to=(0.24, -1.0, 0.08), bend=20.0),
@@ -270,13 +280,13 @@ def leap(skeleton: Skeleton) -> Clip:
         *ballistic(off, take_off, landed, touch_down),
     ]
     left = [
-        replace(LEFT_STANCE, leave=0.16, leave_pitch=24.0, roll=0.12),
+        replace(LEFT_STANCE, leave=0.24, leave_pitch=24.0, roll=0.12),
         replace(
             LEFT_STANCE,
             land=stepped,
             leave=off,
             left=0.06,
-            ahead=0.46,
+            ahead=0.52,
             yaw=2.0,
             land_pitch=-14.0,
             flat=0.08,
@@ -286,7 +296,7 @@ def leap(skeleton: Skeleton) -> Clip:
         ),
         replace(
             LEFT_STANCE,
-            land=closed,
+            land=caught,
             ahead=LEFT_STANCE.ahead + far,
             land_pitch=10.0,
             flat=0.09,
@@ -294,16 +304,27 @@ def leap(skeleton: Skeleton) -> Clip:
         ),
     ]
     right = [
-        replace(RIGHT_STANCE, leave=0.54, leave_pitch=50.0, roll=0.24),
+        replace(RIGHT_STANCE, leave=0.62, leave_pitch=50.0, roll=0.24),
         replace(
             RIGHT_STANCE,
             land=landed,
+            leave=2.00,
             left=-0.075,
-            ahead=RIGHT_STANCE.ahead + far,
+            ahead=far - 0.18,
             yaw=-6.0,
-            land_pitch=22.0,
-            flat=0.08,
+            land_pitch=42.0,
+            flat=0.12,
+            leave_pitch=30.0,
+            roll=0.16,
             swing=None,
+        ),
+        replace(
+            RIGHT_STANCE,
+            land=2.28,
+            ahead=RIGHT_STANCE.ahead + far,
+            land_pitch=8.0,
+            flat=0.08,
+            swing=(Via(0.5, 0.06),),
         ),
     ]
     return make_clip(
@@ -313,7 +334,7 @@ def leap(skeleton: Skeleton) -> Clip:
         moved_in_one_go(duration, stepped, landed, ahead=far),
         left_foot=left,
         right_foot=right,
-        stage_ends_s=(0.20, 0.52, landed, 1.46, duration),
+        stage_ends_s=(0.24, 0.60, landed, absorbed, duration),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from actions_library.authoring.keys import ArmKey, Key, Place, Turn, at
+from actions_library.authoring.keys import ArmKey, Hand, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
     LEFT_STANCE,
@@ -169,47 +169,57 @@ def idle_sitting(skeleton: Skeleton) -> Clip:
 
 
 def stand_up(skeleton: Skeleton) -> Clip:
-    """Stand up from the ground: hands behind, rock forward over the feet, rise."""
-    duration = 2.20
+    """Stand up from the ground: hands behind push, the mass goes over the feet, then it rises."""
+    duration = 2.60
     pushing = ArmKey(
-        to=(0.66, -0.44, -0.60), bend=16.0, elbow=(0.5, 0.2, -1.0), flex=-50.0, curl=8.0
+        to=(0.50, -0.70, -0.50), bend=20.0, elbow=(0.5, 0.2, -1.0), flex=-50.0, curl=8.0
     )
+    prop = Hand((0.28, 0.085, -0.56), fingers=(0.75, 0.0, -0.65), palm=(0.0, -1.0, 0.0))
+    lifted = replace(prop, place=(0.36, 0.42, -0.28), hold=0.0)
+
+    def both(hand: Hand, at_s: float) -> Key:
+        return Key(at_s, left_hand=hand, right_hand=hand)
+
     keys = [
         SEAT,
+        both(replace(lifted, place=(0.34, 0.36, -0.45)), 0.06),
         Key(
-            0.18,
-            left_arm=replace(pushing, to=(0.85, -0.36, 0.10)),
-            right_arm=replace(pushing, to=(0.85, -0.36, 0.10)),
+            0.22,
+            left_arm=replace(pushing, to=(0.85, -0.46, 0.00)),
+            right_arm=replace(pushing, to=(0.85, -0.46, 0.00)),
         ),
-        Key(  # leans back to gather
-            0.36,
-            place=Place(left=0.0, up=-0.836, ahead=-0.510),
-            hips=Turn(lean=-24.0),
+        both(prop, 0.40),
+        Key(  # leans back onto the hands to gather
+            0.44,
+            place=Place(left=0.0, up=-0.836, ahead=-0.505),
+            hips=Turn(lean=-22.0),
             chest=Turn(lean=6.0),
             head=Turn(lean=10.0),
             left_arm=pushing,
             right_arm=pushing,
         ),
-        Key(
-            0.72,
-            place=Place(left=0.0, up=-0.800, ahead=-0.420),
-            hips=Turn(lean=8.0),
-            chest=Turn(lean=46.0),
+        Key(  # rocks forward
+            0.84,
+            place=Place(left=0.0, up=-0.812, ahead=-0.430),
+            hips=Turn(lean=6.0),
+            chest=Turn(lean=42.0),
             head=Turn(lean=26.0),
-            left_arm=replace(pushing, to=(0.68, -0.50, -0.24)),
-            right_arm=replace(pushing, to=(0.68, -0.50, -0.24)),
+            left_arm=replace(pushing, to=(0.60, -0.62, -0.40)),
+            right_arm=replace(pushing, to=(0.60, -0.62, -0.40)),
         ),
+        both(prop, 0.78),
+        both(lifted, 1.10),
         Key(  # over the feet
-            1.06,
-            place=Place(left=0.0, up=-0.460, ahead=-0.085),
-            hips=Turn(lean=32.0),
-            chest=Turn(lean=66.0),
-            head=Turn(lean=24.0),
+            1.38,
+            place=Place(left=0.0, up=-0.455, ahead=-0.085),
+            hips=Turn(lean=31.0),
+            chest=Turn(lean=64.0),
+            head=Turn(lean=26.0),
             left_arm=ArmKey(to=(0.20, -0.72, 0.75), bend=24.0),
             right_arm=ArmKey(to=(0.20, -0.72, 0.80), bend=28.0),
         ),
         Key(  # up
-            1.64,
+            2.00,
             place=Place(left=0.006, up=-0.022, ahead=0.0),
             hips=Turn(lean=4.0),
             chest=Turn(lean=1.0),
@@ -217,7 +227,7 @@ def stand_up(skeleton: Skeleton) -> Clip:
             left_arm=ArmKey(to=(0.19, -1.0, 0.04), bend=14.0),
             right_arm=ArmKey(to=(0.19, -1.0, 0.06), bend=18.0),
         ),
-        Key(1.86, place=Place(left=0.009, up=-0.006), chest=Turn(lean=-1.0)),
+        Key(2.24, place=Place(left=0.009, up=-0.006), chest=Turn(lean=-1.0)),
         at(duration, STAND),
     ]
     return make_clip(
@@ -227,5 +237,5 @@ def stand_up(skeleton: Skeleton) -> Clip:
         standing_still(duration),
         left_foot=[LEFT_STANCE],
         right_foot=[RIGHT_STANCE],
-        stage_ends_s=(0.0, 0.36, 1.64, 1.86, duration),
+        stage_ends_s=(0.0, 0.44, 2.00, 2.24, duration),
     )

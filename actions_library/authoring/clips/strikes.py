@@ -14,100 +14,102 @@ from smd.character.skeleton import Skeleton
 
 def punch(skeleton: Skeleton) -> Clip:
     """Return a right-hand straight: from the rear foot through hips and shoulder to the fist."""
-    duration = 1.50
+    duration = 1.68
     fist = ArmKey(bend=120.0, elbow=(0.4, -1.0, -0.1), twist=25.0, flex=0.0, curl=150.0)
     straight = replace(
         fist, to=(-0.02, 0.05, 1.0), bend=7.0, elbow=(1.0, -0.6, 0.0), follow=0.0, twist=80.0
     )
     keys = [
         STAND,
-        Key(
-            0.14,
+        Key(  # the weight goes to the rear foot before the front one leaves
+            0.19,
+            place=Place(left=-0.070, up=-0.045, ahead=-0.015),
             left_arm=ArmKey(to=(0.22, -0.9, 0.50), bend=70.0, curl=80.0),
             right_arm=ArmKey(to=(0.22, -0.9, 0.45), bend=75.0, curl=80.0),
         ),
         Key(  # guard
-            0.30,
-            place=Place(left=0.015, up=-0.060, ahead=0.05),
+            0.41,
+            place=Place(left=-0.030, up=-0.070, ahead=0.050),
             hips=Turn(yaw=-26.0, lean=6.0),
             chest=Turn(yaw=-24.0, lean=10.0),
             head=Turn(yaw=-4.0, lean=9.0),
             left_arm=replace(fist, to=(-0.05, 0.0, 1.0), bend=108.0),
             right_arm=replace(fist, to=(-0.25, -0.02, 0.8), bend=130.0),
         ),
-        Key(  # anticipation: the weight goes back, and the fist
-            0.54,
-            place=Place(left=-0.020, up=-0.070, ahead=-0.010),
-            hips=Turn(yaw=-44.0, lean=2.0, tilt=2.0),
-            chest=Turn(yaw=-58.0, lean=3.0, tilt=5.0),
+        Key(0.52, place=Place(left=-0.055, up=-0.085, ahead=0.030)),  # the weight goes back
+        Key(  # anticipation: and the fist, while the weight already comes
+            0.65,
+            place=Place(left=-0.030, up=-0.100, ahead=0.075),
+            hips=Turn(yaw=-46.0, lean=3.0, tilt=2.0),
+            chest=Turn(yaw=-62.0, lean=4.0, tilt=5.0),
             head=Turn(yaw=-8.0, lean=7.0, tilt=3.0),
             left_arm=replace(fist, to=(0.10, 0.0, 1.0), bend=58.0, follow=0.0, twist=40.0),
             right_arm=replace(fist, to=(0.25, -0.50, 0.45), bend=132.0, elbow=(0.5, -0.2, -1.0)),
         ),
-        Key(  # the fist arrives
-            0.69,
-            place=Place(left=0.050, up=-0.095, ahead=0.215),
-            hips=Turn(yaw=22.0, lean=10.0),
-            chest=Turn(yaw=52.0, lean=14.0, tilt=-4.0),
+        Key(0.77, hips=Turn(yaw=14.0, lean=9.0)),  # the hips first, then the chest
+        Key(0.80, chest=Turn(yaw=42.0, lean=13.0, tilt=-4.0)),
+        Key(  # then the elbow, the fist still at the shoulder
+            0.73,
+            right_arm=replace(fist, to=(0.12, -0.20, 0.9), bend=122.0, elbow=(0.8, -0.7, -0.3)),
+        ),
+        Key(0.83, right_arm=straight),  # and the fist, which comes a little after its key
+        Key(  # it arrives
+            0.87,
+            place=Place(left=0.030, up=-0.110, ahead=0.195),
+            hips=Turn(yaw=23.0, lean=10.0),
             head=Turn(yaw=6.0, lean=10.0, tilt=-4.0),
             left_arm=replace(fist, to=(0.05, -0.05, 0.8), bend=132.0, elbow=(0.5, -1.0, -0.5)),
-            right_arm=straight,
         ),
         Key(  # and goes on a little
-            0.82,
-            place=Place(left=0.056, up=-0.100, ahead=0.235),
+            0.99,
+            place=Place(left=0.040, up=-0.112, ahead=0.225),
             hips=Turn(yaw=26.0, lean=11.0),
             chest=Turn(yaw=58.0, lean=15.0, tilt=-4.0),
             head=Turn(yaw=8.0, lean=10.0, tilt=-4.0),
             left_arm=replace(fist, to=(0.08, -0.05, 0.8), bend=134.0, elbow=(0.5, -1.0, -0.6)),
             right_arm=replace(straight, to=(0.03, 0.03, 1.0), bend=10.0),
         ),
-        Key(
-            1.06,
-            place=Place(left=0.020, up=-0.060, ahead=0.08),
-            hips=Turn(yaw=-14.0, lean=6.0),
-            chest=Turn(yaw=-8.0, lean=8.0),
+        Key(  # the weight is back on the rear foot
+            1.22,
+            place=Place(left=-0.060, up=-0.055, ahead=0.020),
+            hips=Turn(yaw=-12.0, lean=6.0),
+            chest=Turn(yaw=-6.0, lean=8.0),
             head=Turn(yaw=-2.0, lean=8.0),
-            left_arm=replace(fist, to=(-0.05, -0.35, 1.0), bend=98.0, curl=100.0),
-            right_arm=replace(fist, to=(-0.10, -0.35, 0.9), bend=110.0, curl=100.0),
+            left_arm=replace(fist, to=(0.02, -0.60, 0.9), bend=88.0, curl=100.0),
+            right_arm=replace(fist, to=(-0.02, -0.60, 0.8), bend=96.0, curl=100.0),
         ),
         at(duration, STAND),
     ]
-    front = replace(LEFT_STANCE, left=0.125, ahead=0.32, yaw=2.0)
     left = [
-        replace(LEFT_STANCE, leave=0.06, leave_pitch=18.0, roll=0.06),
+        replace(LEFT_STANCE, leave=0.19, leave_pitch=18.0, roll=0.10),
         replace(
-            front,
-            land=0.30,
-            leave=1.02,
+            LEFT_STANCE,
+            land=0.40,
+            leave=1.18,
+            left=0.125,
+            ahead=0.32,
+            yaw=2.0,
             land_pitch=-8.0,
             flat=0.06,
             leave_pitch=12.0,
             roll=0.10,
             swing=(Via(0.5, 0.055),),
         ),
-        replace(LEFT_STANCE, land=1.28, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.05),)),
+        replace(LEFT_STANCE, land=1.43, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.05),)),
     ]
-    rear = replace(RIGHT_STANCE, left=-0.125, ahead=-0.11, yaw=-32.0)
     right = [
-        replace(RIGHT_STANCE, leave=0.17, leave_pitch=14.0, roll=0.08),
         replace(
-            rear,
-            land=0.38,
-            leave=1.14,
-            land_pitch=10.0,
-            flat=0.06,
-            leave_pitch=14.0,
-            roll=0.09,
+            RIGHT_STANCE,
             on_ball=(
-                OnBall(0.52, 0.0),
-                OnBall(0.70, 44.0, turn=24.0),
-                OnBall(0.82, 48.0, turn=26.0),
-                OnBall(1.04, 0.0),
+                OnBall(0.26, 0.0),
+                OnBall(0.41, 8.0, turn=-20.0),
+                OnBall(0.63, 6.0, turn=-22.0),
+                OnBall(0.87, 44.0, turn=4.0),
+                OnBall(0.99, 48.0, turn=8.0),
+                OnBall(1.22, 8.0, turn=-4.0),
+                OnBall(1.38, 0.0),
             ),
-            swing=(Via(0.5, 0.040),),
-        ),
-        replace(RIGHT_STANCE, land=1.36, land_pitch=10.0, flat=0.08, swing=(Via(0.5, 0.040),)),
+        )
     ]
     return make_clip(
         skeleton,
@@ -116,13 +118,13 @@ def punch(skeleton: Skeleton) -> Clip:
         standing_still(duration),
         left_foot=left,
         right_foot=right,
-        stage_ends_s=(0.30, 0.54, 0.69, 0.82, duration),
+        stage_ends_s=(0.41, 0.65, 0.87, 0.99, duration),
     )
 
 
 def kick(skeleton: Skeleton) -> Clip:
     """Return a front kick with the right leg: knee up, foot out, foot back, down."""
-    duration, off, landed = 1.70, 0.42, 1.28
+    duration, off, landed = 1.76, 0.42, 1.34
     guard = ArmKey(
         to=(0.10, -0.30, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=25.0, curl=140.0
     )
@@ -151,6 +153,7 @@ def kick(skeleton: Skeleton) -> Clip:
             right_arm=replace(guard, to=(0.10, -0.45, 0.9)),
             right_leg=chambered,
         ),
+        Key(0.67, right_leg=replace(chambered, to=(0.05, -0.42, 0.78), bend=112.0)),
         Key(  # the foot arrives
             0.76,
             place=Place(left=0.094, up=-0.034, ahead=0.060),
@@ -170,7 +173,7 @@ def kick(skeleton: Skeleton) -> Clip:
             right_leg=replace(out, to=(0.0, -0.24, 1.0)),
         ),
         Key(  # back at the knee
-            1.02,
+            1.08,
             place=Place(left=0.092, up=-0.060, ahead=0.020),
             hips=Turn(yaw=-2.0, lean=-6.0, tilt=3.0),
             chest=Turn(yaw=-4.0, lean=4.0, tilt=-1.0),
@@ -180,7 +183,7 @@ def kick(skeleton: Skeleton) -> Clip:
             right_leg=replace(chambered, to=(0.06, -0.70, 0.45), bend=104.0),
         ),
         Key(
-            1.40,
+            1.46,
             place=Place(left=0.030, up=-0.026, ahead=0.004),
             hips=Turn(yaw=-3.0, lean=3.0, tilt=1.0),
             chest=Turn(yaw=-2.0, lean=4.0),
@@ -234,7 +237,7 @@ def push(skeleton: Skeleton) -> Clip:
         ),
         Key(  # gathers
             0.78,
-            place=Place(left=0.000, up=-0.125, ahead=-0.085),
+            place=Place(left=0.000, up=-0.135, ahead=-0.065),
             hips=Turn(yaw=-6.0, lean=12.0),
             chest=Turn(yaw=-2.0, lean=16.0),
             head=Turn(lean=12.0),
@@ -279,7 +282,7 @@ def push(skeleton: Skeleton) -> Clip:
             LEFT_STANCE,
             land=0.74,
             leave=1.74,
-            ahead=0.30,
+            ahead=0.28,
             yaw=2.0,
             land_pitch=-12.0,
             flat=0.08,
@@ -348,14 +351,16 @@ def slash(skeleton: Skeleton) -> Clip:
             left_arm=replace(balance, to=(0.15, -0.10, 1.0), bend=40.0, follow=0.0),
             right_arm=replace(grip, to=(0.62, 0.72, -0.10), bend=96.0, elbow=(1.0, 0.2, 0.5)),
         ),
-        Key(  # on its way, the arm long
-            0.71,
-            place=Place(left=0.010, up=-0.085, ahead=0.10),
-            hips=Turn(yaw=0.0, lean=8.0),
-            chest=Turn(yaw=0.0, lean=10.0, tilt=-4.0),
+        Key(0.72, hips=Turn(yaw=14.0, lean=11.0, tilt=-1.0)),  # the hips first, then the chest
+        Key(0.70, chest=Turn(yaw=-10.0, lean=6.0, tilt=-1.0)),
+        Key(0.76, chest=Turn(yaw=36.0, lean=22.0, tilt=-7.0)),
+        Key(  # then the arm, long at last
+            0.70,
+            place=Place(left=0.010, up=-0.080, ahead=0.09),
             head=Turn(yaw=0.0, lean=8.0),
-            right_arm=replace(grip, to=(0.35, 0.28, 1.0), bend=22.0),
+            right_arm=replace(grip, to=(0.55, 0.62, 0.62), bend=84.0),
         ),
+        Key(0.745, right_arm=replace(grip, to=(-0.02, 0.0, 1.0), bend=70.0)),
         Key(  # through
             0.82,
             place=Place(left=0.050, up=-0.125, ahead=0.195),

@@ -68,13 +68,19 @@ def throw(skeleton: Skeleton) -> Clip:
                 curl=80.0,
             ),
         ),
-        Key(  # release: high, ahead of the head
-            1.03,
-            place=Place(left=0.045, up=-0.085, ahead=0.22),
-            hips=Turn(yaw=14.0, lean=10.0, tilt=-2.0),
-            chest=Turn(yaw=24.0, lean=16.0, tilt=-10.0),
-            head=Turn(yaw=0.0, lean=8.0, tilt=-4.0),
-            left_arm=ArmKey(to=(0.55, -0.35, 0.35), bend=85.0, elbow=(0.8, -0.3, -1.0), curl=45.0),
+        Key(  # the elbow leads
+            0.955,
+            right_arm=ArmKey(
+                to=(0.52, 0.84, 0.36),
+                bend=92.0,
+                elbow=(1.0, -0.3, 0.2),
+                twist=15.0,
+                flex=-20.0,
+                curl=80.0,
+            ),
+        ),
+        Key(  # the hand is released a little after its key
+            1.01,
             right_arm=ArmKey(
                 to=(0.35, 0.80, 0.75),
                 bend=22.0,
@@ -83,6 +89,14 @@ def throw(skeleton: Skeleton) -> Clip:
                 flex=10.0,
                 curl=25.0,
             ),
+        ),
+        Key(  # release: high, ahead of the head
+            1.03,
+            place=Place(left=0.045, up=-0.085, ahead=0.22),
+            hips=Turn(yaw=14.0, lean=10.0, tilt=-2.0),
+            chest=Turn(yaw=24.0, lean=16.0, tilt=-10.0),
+            head=Turn(yaw=0.0, lean=8.0, tilt=-4.0),
+            left_arm=ArmKey(to=(0.55, -0.35, 0.35), bend=85.0, elbow=(0.8, -0.3, -1.0), curl=45.0),
         ),
         Key(  # the arm runs out across the body
             1.24,
