@@ -70,6 +70,9 @@ def define_character(
     path: str,
     character: Character,
     colors_rgb: Sequence[tuple[float, float, float]] | None = None,
+    *,
+    skeleton: str = SKELETON,
+    animation: str = ANIMATION,
 ) -> UsdSkel.Root:
     """Define a SkelRoot with the character's skeleton, meshes and materials.
 
@@ -83,18 +86,21 @@ def define_character(
         What.
     colors_rgb
         Linear colour of each mesh instead of its own.
+    skeleton, animation
+        Names of the Skeleton's prim, and of a SkelAnimation's that is to stand beside it. Blender
+        calls the armature and its action so.
     """
     root = UsdSkel.Root.Define(stage, path)
-    skeleton = _define_skeleton(stage, f"{path}/{SKELETON}", character.skeleton)
+    bones = _define_skeleton(stage, f"{path}/{skeleton}", character.skeleton)
     binding = UsdSkel.BindingAPI.Apply(root.GetPrim())
-    binding.CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+    binding.CreateSkeletonRel().SetTargets([bones.GetPath()])
     colors = colors_rgb or [mesh.color_rgb for mesh in character.meshes]
-    reserved = [SKELETON, ANIMATION, MATERIALS]
+    reserved = [skeleton, animation, MATERIALS]
     names = unique_identifiers([*reserved, *(mesh.name for mesh in character.meshes)])[3:]
     for name, mesh, color in zip(names, character.meshes, colors, strict=True):
         material = define_material(stage, f"{path}/{MATERIALS}/{name}", color)
         prim = _define_mesh(stage, f"{path}/{name}", mesh, color)
-        UsdSkel.BindingAPI(prim).CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+        UsdSkel.BindingAPI(prim).CreateSkeletonRel().SetTargets([bones.GetPath()])
         UsdShade.MaterialBindingAPI.Apply(prim.GetPrim()).Bind(material)
     return root
 
@@ -143,11 +149,13 @@ def define_animation(
     return animation
 
 
-def bind_animation(root: UsdSkel.Root, animation: UsdSkel.Animation) -> None:
-    """Let an animation move the character under ``root``."""
+def bind_animation(
+    root: UsdSkel.Root, animation: UsdSkel.Animation, skeleton: str = SKELETON
+) -> None:
+    """Let an animation move the character under ``root``, whose Skeleton has that name."""
     stage, path = root.GetPrim().GetStage(), animation.GetPath()
     # On the root it is inherited by all below; on the skeleton it is where other readers look.
-    for prim in (root.GetPrim(), stage.OverridePrim(root.GetPath().AppendChild(SKELETON))):
+    for prim in (root.GetPrim(), stage.OverridePrim(root.GetPath().AppendChild(skeleton))):
         UsdSkel.BindingAPI.Apply(prim).CreateAnimationSourceRel().SetTargets([path])
 
 

@@ -3,9 +3,11 @@
 ::
 
     /Performance                      default prim
-        /Actors/<device>              SkelRoot: Skeleton, Animation, meshes, Materials
-        /Doodles/<device>             BasisCurves, one a stretch, coloured by phrase
-        /Props/<device>               Xform that goes where the prop went
+        /Actors/<device>_character    SkelRoot: meshes, Materials
+            /<device>                 Skeleton
+            /<device>_animation       SkelAnimation
+        /Doodles/<device>_doodle      BasisCurves, one a stretch, coloured by phrase
+        /Props/<device>_prop          Xform that goes where the prop went
         /Scenery                      Ground, Camera
 
 Frame i of the performance is time code i, and a second has as many time codes as the
@@ -24,7 +26,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom
 from actions_library.naming import numbered
 from actions_library.stage_frame import OURS, StageFrame
 from actions_library.storage import new_stage
-from actions_library.usd_skel import unique_identifiers
+from actions_library.usd_skel import MATERIALS, unique_identifiers
 from exporters.package import write_package
 from exporters.palette import RGB, action_colors
 from exporters.performer import Performer, Places, define_performer
@@ -40,8 +42,6 @@ ACTORS, DOODLES, PROPS, SCENERY = (
 )
 START_KEY = "smd:start_s"
 """In the layer's custom data, beside the performance's source: ``smd:`` and each entry's name."""
-
-_IN_LAYER = Places(*(f"/{PERFORMER}/{name}" for name in ("Actor", "Doodle", "Prop")))
 
 Files = dict[Path, Callable[[Path], None]]
 """The writer of each of the files that belong together (`smd.files.write_together`)."""
@@ -116,15 +116,15 @@ def usd_layers(
     # Where the file system does not tell Left from left, two layers would be one.
     file_names = numbered(name.lower() for name in names)
     for name, file_name, performer in zip(names, file_names, performers, strict=True):
-        inside = _new_stage(performance, PERFORMER, frame)
+        inside, inner = _new_stage(performance, PERFORMER, frame), _places_in_layer(name)
         UsdGeom.Xform.Define(inside, f"/{PERFORMER}")
         boxes += [
-            define_performer(inside, _IN_LAYER, performer, colors),
+            define_performer(inside, inner, performer, colors),
             *doodle_boxes(performer.actor),
         ]
         beside = path.with_name(f"{path.stem}.{file_name}.usdc")
         files[beside] = partial(_export, inside.GetRootLayer(), beside)
-        for here, there in zip(_places(name), _IN_LAYER, strict=True):
+        for here, there in zip(places(name)[:3], inner[:3], strict=True):
             if prim := inside.GetPrimAtPath(there):  # a doodle of one sample draws nothing
                 references.append(
                     (here, prim.GetTypeName(), Sdf.Reference(f"./{beside.name}", there))
@@ -155,7 +155,7 @@ def performance_stage(
     performers = _performers(performance, neutral)
     for name, performer in zip(_names(performance), performers, strict=True):
         boxes += [
-            define_performer(stage, _places(name), performer, colors),
+            define_performer(stage, places(name), performer, colors),
             *doodle_boxes(performer.actor),
         ]
     _define_scenery(stage, performance, boxes)
@@ -206,11 +206,25 @@ def _colors(performance: Performance) -> dict[str, RGB]:
 
 
 def _names(performance: Performance) -> list[str]:
-    return unique_identifiers(actor.name for actor in performance.actors)
+    # A Skeleton of that name would stand where the materials are.
+    return unique_identifiers([MATERIALS, *(actor.name for actor in performance.actors)])[1:]
 
 
-def _places(name: str) -> Places:
-    return Places(f"{ACTORS}/{name}", f"{DOODLES}/{name}", f"{PROPS}/{name}")
+def places(name: str) -> Places:
+    """Return where the prims of a device of this name are."""
+    return Places(
+        f"{ACTORS}/{name}_character",
+        f"{DOODLES}/{name}_doodle",
+        f"{PROPS}/{name}_prop",
+        name,
+        f"{name}_animation",
+    )
+
+
+def _places_in_layer(name: str) -> Places:
+    """Return where the prims of a device are in its own layer."""
+    actor, doodle, prop = (f"/{PERFORMER}/{kind}" for kind in ("Actor", "Doodle", "Prop"))
+    return Places(actor, doodle, prop, name, f"{name}_animation")
 
 
 def _export(layer: Sdf.Layer, path: Path, temporary: Path) -> None:

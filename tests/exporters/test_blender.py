@@ -47,11 +47,6 @@ def expect_bones(path: Path, performance) -> None:
     bpy.ops.wm.usd_import(filepath=str(path))
     scene = bpy.context.scene
     assert scene.render.fps == performance.rate_hz
-    armatures = {
-        thing.parent.name.split(".")[0]: thing
-        for thing in scene.objects
-        if thing.type == "ARMATURE"
-    }
     frames = np.linspace(0, len(performance) - 1, 10).astype(int)
     for actor in performance.actors:
         _, ours_m = forward_kinematics(
@@ -59,7 +54,9 @@ def expect_bones(path: Path, performance) -> None:
             actor.poses.rotation_xyzw[frames],
             actor.poses.translation_m[frames],
         )
-        armature = armatures[actor.name]
+        armature = scene.objects[actor.name]
+        assert armature.type == "ARMATURE"
+        assert armature.animation_data.action.name == f"{actor.name}_animation"
         for frame, positions_m in zip(frames, ours_m, strict=True):
             scene.frame_set(int(frame))
             bones = armature.pose.bones

@@ -46,7 +46,7 @@ def test_every_option_together(animate, tmp_path):
     assert stage.GetFramesPerSecond() == 30.0
     (actor,) = stage.GetPrimAtPath("/Performance/Actors").GetChildren()
     assert actor.GetVariantSets().GetVariantSelection("expression") == "expressive"
-    assert (tmp_path / f"out.{actor.GetName()}.usdc").is_file()
+    assert (tmp_path / f"out.{actor.GetCustomDataByKey('smd:device')}.usdc").is_file()
     assert len((tmp_path / "out.phrases.csv").read_text().splitlines()) == 2
 
 
