@@ -53,6 +53,7 @@ def write_usd(
     *,
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
+    keys_within_m: float | None = None,
 ) -> None:
     """Write a performance as one USD file; equal performances give equal bytes.
 
@@ -67,13 +68,20 @@ def write_usd(
         character's variant set ``expression``, and ``performance`` the variant ``expressive``.
     frame
         Coordinates of the USD stage.
+    keys_within_m
+        Few keys instead of one each frame: no point of the skin is further than this from where it
+        is at each frame (`exporters.keys`). Props keep every frame.
 
     Raises
     ------
     ExportError
-        If the file cannot be written, or the two performances do not fit each other.
+        If the file cannot be written, the two performances do not fit each other, or the distance
+        is not positive.
     """
-    write_together(usd_file(performance, Path(path), neutral=neutral, frame=frame))
+    files = usd_file(
+        performance, Path(path), neutral=neutral, frame=frame, keys_within_m=keys_within_m
+    )
+    write_together(files)
 
 
 def write_usd_layers(
@@ -82,6 +90,7 @@ def write_usd_layers(
     *,
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
+    keys_within_m: float | None = None,
 ) -> None:
     """Write a performance as a small file that references one more for each performer.
 
@@ -89,19 +98,35 @@ def write_usd_layers(
     none. Parameters and errors are those of `write_usd`; a package is one file, so that .usdz
     is an error too.
     """
-    write_together(usd_layers(performance, Path(path), neutral=neutral, frame=frame))
+    files = usd_layers(
+        performance, Path(path), neutral=neutral, frame=frame, keys_within_m=keys_within_m
+    )
+    write_together(files)
 
 
 def usd_file(
-    performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
+    performance: Performance,
+    path: Path,
+    *,
+    neutral: Performance | None,
+    frame: StageFrame,
+    keys_within_m: float | None,
 ) -> Files:
     """Return the writer of the file of `write_usd`."""
-    layer = performance_stage(performance, neutral=neutral, frame=frame).GetRootLayer()
+    stage = performance_stage(
+        performance, neutral=neutral, frame=frame, keys_within_m=keys_within_m
+    )
+    layer = stage.GetRootLayer()
     return {path: partial(_export, layer, path)}
 
 
 def usd_layers(
-    performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
+    performance: Performance,
+    path: Path,
+    *,
+    neutral: Performance | None,
+    frame: StageFrame,
+    keys_within_m: float | None,
 ) -> Files:
     """Return the writers of `write_usd_layers`; the file that refers to others is the last."""
     if path.suffix.lower() not in (".usda", ".usdc"):
@@ -111,7 +136,7 @@ def usd_layers(
     files: Files = {}
     boxes, references = [], []
     colors = _colors(performance)
-    performers = _performers(performance, neutral)
+    performers = _performers(performance, neutral, keys_within_m)
     names = _names(performance)
     # Where the file system does not tell Left from left, two layers would be one.
     file_names = numbered(name.lower() for name in names)
@@ -146,13 +171,14 @@ def performance_stage(
     *,
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
+    keys_within_m: float | None = None,
 ) -> Usd.Stage:
     """Return a performance as a USD stage in memory; parameters are those of `write_usd`."""
     stage = _new_stage(performance, ROOT, frame)
     _define_scopes(stage)
     colors = _colors(performance)
     boxes = []
-    performers = _performers(performance, neutral)
+    performers = _performers(performance, neutral, keys_within_m)
     for name, performer in zip(_names(performance), performers, strict=True):
         boxes += [
             define_performer(stage, places(name), performer, colors),
@@ -189,16 +215,21 @@ def _define_scenery(
     }
 
 
-def _performers(performance: Performance, neutral: Performance | None) -> list[Performer]:
+def _performers(
+    performance: Performance, neutral: Performance | None, keys_within_m: float | None
+) -> list[Performer]:
     if neutral is None:
-        return [Performer(performance, i) for i in range(len(performance.actors))]
+        count = len(performance.actors)
+        return [Performer(performance, i, None, keys_within_m) for i in range(count)]
     told = [
         (p.rate_hz, p.start_s, len(p), [(a.name, a.character.skeleton.joints) for a in p.actors])
         for p in (performance, neutral)
     ]
     if told[0] != told[1]:
         raise ExportError("neutral: expected a performance of the same devices, joints and frames")
-    return [Performer(performance, i, actor) for i, actor in enumerate(neutral.actors)]
+    return [
+        Performer(performance, i, actor, keys_within_m) for i, actor in enumerate(neutral.actors)
+    ]
 
 
 def _colors(performance: Performance) -> dict[str, RGB]:
