@@ -203,6 +203,10 @@ def test_markers_camera_lights_and_rate_are_there_and_the_cube_is_not(bpy, duel,
     names = sorted(f"{actor.name}: {p.action}" for actor in duel.actors for p in actor.phrases)
     assert sorted(marker.name for marker in scene.timeline_markers) == names
     assert scene.camera.parent.name == "Scenery"
+    views = [a for screen in bpy.data.screens for a in screen.areas if a.type == "VIEW_3D"]
+    assert views
+    assert {a.spaces.active.region_3d.view_perspective for a in views} == {"CAMERA"}
+    assert (scene.frame_start, scene.frame_end) == (0, len(duel) - 1)
     lights = [thing for thing in scene.objects if thing.type == "LIGHT"]
     assert sorted(light.name for light in lights) == ["Fill light", "Key light"]
     for light in lights:
@@ -219,7 +223,7 @@ def test_markers_camera_lights_and_rate_are_there_and_the_cube_is_not(bpy, duel,
         assert named
 
 
-def test_a_scene_of_one_s_own_keeps_its_objects_and_lights(bpy, script, duel, tmp_path):
+def test_a_scene_of_one_s_own_stays_as_it_is(bpy, script, duel, tmp_path, capsys):
     actor = replace(duel.actors[0], phrases=())
     still = Poses(*(np.repeat(part[:1], 5, axis=0) for part in actor.poses))
     moving = Poses(*(part[:20] for part in actor.poses))
@@ -232,10 +236,20 @@ def test_a_scene_of_one_s_own_keeps_its_objects_and_lights(bpy, script, duel, tm
         assert (tmp_path / f"{name}.blend").stat().st_size > 0
     scene = bpy.context.scene
     assert {"Cube", "Light", "still", "moving"} <= {thing.name for thing in scene.objects}
+    assert scene.camera.name == "Camera" and scene.camera.parent is None
+    assert (scene.render.fps, scene.frame_start, scene.frame_end) == (24, 1, 250)
+    assert "the take has 30 frames a second" in capsys.readouterr().out
     assert len([thing for thing in scene.objects if thing.type == "LIGHT"]) == 1
     (strip,) = all_strips(bpy.data.objects["moving"])
     assert strip.name == "moving 00 before"
     assert len(scene.timeline_markers) == 0
+
+
+def test_an_older_blender_is_told(bpy, script, monkeypatch, capsys):
+    monkeypatch.setattr(script, "OLDEST", (99, 1))
+    with pytest.raises(SystemExit):
+        script.main([str(Path(__file__))])
+    assert "expected Blender 99.1 or newer, found" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

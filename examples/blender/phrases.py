@@ -15,7 +15,8 @@ module (``pip install bpy``)::
     blender --python phrases.py -- duel.usdc --within 1
     python phrases.py duel.usdc --within 1 --save duel.blend
 
-It needs nothing of this project, so that it may be copied anywhere.
+A .blend file that is opened before (``blender scene.blend --python …``) keeps its objects, lights,
+camera and frame rate. The script needs nothing of this project: it may be copied anywhere.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ import bpy
 import numpy as np
 
 DEVICE, PHRASES = "smd:device", "smd:phrases"  # custom data of each character in the USD file
+OLDEST = (4, 4)  # its actions have slots, and its Python finds USD
 LONGEST = 48  # frames between two keys at most
 STILL = 0.001  # of what a channel may stray: what moves less stands still
 SUNS = (("Key light", 3.0, (50.0, 0.0, -35.0)), ("Fill light", 1.0, (60.0, 0.0, 60.0)))
@@ -49,13 +51,19 @@ def main(arguments: list[str]) -> None:
         parser.error(f"{options.usd}: expected a USD file, found none")
     if not (math.isfinite(options.within) and options.within > 0):
         parser.error(f"--within: expected millimetres above 0, found {options.within:g}")
-    if not bpy.data.filepath:
-        remove_startup_objects()
+    if bpy.app.version < OLDEST:
+        parser.error(
+            f"expected Blender {OLDEST[0]}.{OLDEST[1]} or newer, found {bpy.app.version_string}"
+        )
+    scene, new = bpy.context.scene, not bpy.data.filepath
     rate, phrases = read_phrases(options.usd)
-    imported = import_usd(options.usd)
-    scene = bpy.context.scene
-    scene.render.fps = max(round(rate), 1)
-    scene.render.fps_base = scene.render.fps / rate
+    if new:
+        remove_startup_objects()
+        scene.render.fps = max(round(rate), 1)
+        scene.render.fps_base = scene.render.fps / rate
+    elif not math.isclose(scene.render.fps / scene.render.fps_base, rate):
+        print(f"the take has {rate:g} frames a second: write it with --fps as the scene has it")
+    imported = import_usd(options.usd, set_frame_range=new)
     for armature in (thing for thing in imported if thing.type == "ARMATURE"):
         performer = plain(armature.name)
         entries = phrases.get(performer, [])
@@ -94,10 +102,10 @@ def read_phrases(path: Path) -> tuple[float, dict[str, list[tuple[str, int, int]
     return stage.GetTimeCodesPerSecond(), found
 
 
-def import_usd(path: Path) -> list[bpy.types.Object]:
+def import_usd(path: Path, *, set_frame_range: bool) -> list[bpy.types.Object]:
     """Import a USD file and return its objects."""
     before = set(bpy.data.objects)
-    bpy.ops.wm.usd_import(filepath=str(path.resolve()))
+    bpy.ops.wm.usd_import(filepath=str(path.resolve()), set_frame_range=set_frame_range)
     return [thing for thing in bpy.data.objects if thing not in before]
 
 
@@ -107,10 +115,13 @@ def plain(name: str) -> str:
 
 
 def film(cameras: list[bpy.types.Object]) -> None:
-    """Make the file's camera the scene's, and light a scene that has no light."""
+    """See a scene without a camera of its own through the file's, and light it if it is dark."""
     scene = bpy.context.scene
-    if cameras:
+    if cameras and scene.camera is None:
         scene.camera = cameras[0]
+        for area in (area for screen in bpy.data.screens for area in screen.areas):
+            if area.type == "VIEW_3D":
+                area.spaces.active.region_3d.view_perspective = "CAMERA"
     if any(thing.type == "LIGHT" for thing in scene.objects):
         return
     for name, strength, degrees in SUNS:
