@@ -245,6 +245,12 @@ def test_a_scene_of_one_s_own_stays_as_it_is(bpy, script, duel, tmp_path, capsys
     assert len(scene.timeline_markers) == 0
 
 
+def test_what_is_no_usd_is_said(bpy, script, capsys):
+    with pytest.raises(SystemExit):
+        script.main([str(Path(__file__))])
+    assert f"{Path(__file__)}: expected a USD file, got something else" in capsys.readouterr().err
+
+
 def test_an_older_blender_is_told(bpy, script, monkeypatch, capsys):
     monkeypatch.setattr(script, "OLDEST", (99, 1))
     with pytest.raises(SystemExit):

@@ -56,7 +56,10 @@ def main(arguments: list[str]) -> None:
             f"expected Blender {OLDEST[0]}.{OLDEST[1]} or newer, found {bpy.app.version_string}"
         )
     scene, new = bpy.context.scene, not bpy.data.filepath
-    rate, phrases = read_phrases(options.usd)
+    try:
+        rate, phrases = read_phrases(options.usd)
+    except ValueError as error:
+        parser.error(str(error))
     if new:
         remove_startup_objects()
         scene.render.fps = max(round(rate), 1)
@@ -85,11 +88,17 @@ def remove_startup_objects() -> None:
 
 
 def read_phrases(path: Path) -> tuple[float, dict[str, list[tuple[str, int, int]]]]:
-    """Return the frame rate, and each performer's phrases: action, first and last frame."""
-    bpy.utils.expose_bundled_modules()
-    from pxr import Usd, UsdSkel
+    """Return the frame rate, and each performer's phrases: action, first and last frame.
 
-    stage, found = Usd.Stage.Open(str(path)), {}
+    Raises ValueError if the file is not USD.
+    """
+    bpy.utils.expose_bundled_modules()
+    from pxr import Tf, Usd, UsdSkel
+
+    try:
+        stage, found = Usd.Stage.Open(str(path)), {}
+    except Tf.ErrorException as error:
+        raise ValueError(f"{path}: expected a USD file, got something else") from error
     for root in stage.Traverse():
         if not root.HasCustomDataKey(DEVICE):
             continue
