@@ -238,7 +238,7 @@ def test_a_scene_of_one_s_own_stays_as_it_is(bpy, script, duel, tmp_path, capsys
     assert {"Cube", "Light", "still", "moving"} <= {thing.name for thing in scene.objects}
     assert scene.camera.name == "Camera" and scene.camera.parent is None
     assert (scene.render.fps, scene.frame_start, scene.frame_end) == (24, 1, 250)
-    assert "the take has 30 frames a second" in capsys.readouterr().out
+    assert "the file has 30 frames a second" in capsys.readouterr().out
     assert len([thing for thing in scene.objects if thing.type == "LIGHT"]) == 1
     (strip,) = all_strips(bpy.data.objects["moving"])
     assert strip.name == "moving 00 before"

@@ -65,7 +65,7 @@ def main(arguments: list[str]) -> None:
         scene.render.fps = max(round(rate), 1)
         scene.render.fps_base = scene.render.fps / rate
     elif not math.isclose(scene.render.fps / scene.render.fps_base, rate):
-        print(f"the take has {rate:g} frames a second: write it with --fps as the scene has it")
+        print(f"the file has {rate:g} frames a second: write it with --fps as the scene has it")
     imported = import_usd(options.usd, set_frame_range=new)
     for armature in (thing for thing in imported if thing.type == "ARMATURE"):
         performer = plain(armature.name)
@@ -235,8 +235,7 @@ def edit_by_phrases(
     bpy.data.actions.remove(whole)
     return (
         f"{armature.name}: {keys_before} keys on {curves_before} curves became {keys} on "
-        f"{len(curves)}, in {len(track.strips)} actions; "
-        f"no bone is further than {1000 * strayed_m:.2f} mm away"
+        f"{len(curves)}, in {len(track.strips)} actions, within {1000 * strayed_m:.2f} mm"
     )
 
 
