@@ -27,7 +27,7 @@ from actions_library.stage_frame import StageFrame
 from smd.character.character import MAX_INFLUENCES, Character, Mesh
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import matrix_from_quaternion, normalized
 
 SKELETON, ANIMATION, MATERIALS = "Skeleton", "Animation", "Materials"
@@ -70,6 +70,9 @@ def define_character(
     path: str,
     character: Character,
     colors_rgb: Sequence[tuple[float, float, float]] | None = None,
+    *,
+    skeleton: str = SKELETON,
+    animation: str = ANIMATION,
 ) -> UsdSkel.Root:
     """Define a SkelRoot with the character's skeleton, meshes and materials.
 
@@ -83,18 +86,21 @@ def define_character(
         What.
     colors_rgb
         Linear colour of each mesh instead of its own.
+    skeleton, animation
+        Names of the Skeleton's prim, and of a SkelAnimation's that is to stand beside it. Blender
+        calls the armature and its action so.
     """
     root = UsdSkel.Root.Define(stage, path)
-    skeleton = _define_skeleton(stage, f"{path}/{SKELETON}", character.skeleton)
+    bones = _define_skeleton(stage, f"{path}/{skeleton}", character.skeleton)
     binding = UsdSkel.BindingAPI.Apply(root.GetPrim())
-    binding.CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+    binding.CreateSkeletonRel().SetTargets([bones.GetPath()])
     colors = colors_rgb or [mesh.color_rgb for mesh in character.meshes]
-    reserved = [SKELETON, ANIMATION, MATERIALS]
+    reserved = [skeleton, animation, MATERIALS]
     names = unique_identifiers([*reserved, *(mesh.name for mesh in character.meshes)])[3:]
     for name, mesh, color in zip(names, character.meshes, colors, strict=True):
         material = define_material(stage, f"{path}/{MATERIALS}/{name}", color)
         prim = _define_mesh(stage, f"{path}/{name}", mesh, color)
-        UsdSkel.BindingAPI(prim).CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+        UsdSkel.BindingAPI(prim).CreateSkeletonRel().SetTargets([bones.GetPath()])
         UsdShade.MaterialBindingAPI.Apply(prim.GetPrim()).Bind(material)
     return root
 
@@ -120,6 +126,7 @@ def define_animation(
     skeleton: Skeleton,
     rotation_xyzw: ArrayLike,
     translation_m: ArrayLike,
+    frames: IntArray | None = None,
 ) -> UsdSkel.Animation:
     """Define a SkelAnimation with one sample a frame, frame i at time code i.
 
@@ -131,6 +138,8 @@ def define_animation(
         Whose joints move.
     rotation_xyzw, translation_m
         Local poses ``(n, j, 4)``, unit, and ``(n, j, 3)``; stored in single precision.
+    frames
+        ``(k,)``, those that get a sample, in order; every frame by default.
     """
     animation = UsdSkel.Animation.Define(stage, path)
     animation.CreateJointsAttr(joint_paths(skeleton))
@@ -138,33 +147,41 @@ def define_animation(
     animation.CreateScalesAttr(Vt.Vec3hArray(len(skeleton), Gf.Vec3h(1.0)))
     frame = StageFrame.of(stage)
     rotations, translations = frame.rotations(rotation_xyzw), frame.points(translation_m)
-    set_samples(animation.CreateRotationsAttr(), rotations, Vt.QuatfArray)
-    set_samples(animation.CreateTranslationsAttr(), translations, Vt.Vec3fArray)
+    set_samples(animation.CreateRotationsAttr(), rotations, Vt.QuatfArray, frames)
+    set_samples(animation.CreateTranslationsAttr(), translations, Vt.Vec3fArray, frames)
     return animation
 
 
-def bind_animation(root: UsdSkel.Root, animation: UsdSkel.Animation) -> None:
-    """Let an animation move the character under ``root``."""
+def bind_animation(
+    root: UsdSkel.Root, animation: UsdSkel.Animation, skeleton: str = SKELETON
+) -> None:
+    """Let an animation move the character under ``root``, whose Skeleton has that name."""
     stage, path = root.GetPrim().GetStage(), animation.GetPath()
     # On the root it is inherited by all below; on the skeleton it is where other readers look.
-    for prim in (root.GetPrim(), stage.OverridePrim(root.GetPath().AppendChild(SKELETON))):
+    for prim in (root.GetPrim(), stage.OverridePrim(root.GetPath().AppendChild(skeleton))):
         UsdSkel.BindingAPI.Apply(prim).CreateAnimationSourceRel().SetTargets([path])
 
 
-def set_samples(attribute: Usd.Attribute, values: ArrayLike, kind: Any) -> None:
+def set_samples(
+    attribute: Usd.Attribute, values: ArrayLike, kind: Any, frames: IntArray | None = None
+) -> None:
     """Give an attribute one array a frame: ``values (n, k, components)`` at codes 0 … n - 1.
 
-    They are stored as they are, in the stage's own frame.
+    They are stored as they are, in the stage's own frame; where ``frames`` are given, those alone,
+    and once where all of those are the same.
 
     Samples go to the layer directly, inside one change block: through the stage each would pay
     for resolution and notices.
     """
     single = np.ascontiguousarray(values, dtype=np.float32)
+    if frames is not None and (single[frames] == single[frames[0]]).all():
+        attribute.Set(kind.FromNumpy(single[frames[0]]))
+        return
     target = attribute.GetStage().GetEditTarget()
     layer, path = target.GetLayer(), target.MapToSpecPath(attribute.GetPath())
     with Sdf.ChangeBlock():
-        for frame, value in enumerate(single):
-            layer.SetTimeSample(path, float(frame), kind.FromNumpy(value))
+        for frame in range(len(single)) if frames is None else frames.tolist():
+            layer.SetTimeSample(path, float(frame), kind.FromNumpy(single[frame]))
 
 
 def read_character(stage: Usd.Stage, name: str) -> Character:

@@ -28,7 +28,7 @@ class Writer(Protocol):
 
 
 class StageWriter(Protocol):
-    """A `Writer` of USD stages, which may have their own coordinates and variants."""
+    """A `Writer` of USD stages: own coordinates, variants, few keys."""
 
     def __call__(
         self,
@@ -37,6 +37,7 @@ class StageWriter(Protocol):
         *,
         neutral: Performance | None = ...,
         frame: StageFrame = ...,
+        keys_within_m: float | None = ...,
     ) -> None:
         """Write a performance; the options are those of `write`."""
 
@@ -73,6 +74,7 @@ def write(
     *,
     neutral: Performance | None = None,
     frame: StageFrame | None = None,
+    keys_within_m: float | None = None,
 ) -> None:
     """Write a performance in the format that the file's suffix names.
 
@@ -86,24 +88,31 @@ def write(
         The same Score performed without expression, written as a variant: USD alone.
     frame
         Coordinates of the USD stage, by default ours: USD alone.
+    keys_within_m
+        As few keys as put no point of the skin further than this from where it is at each frame, by
+        default a key each frame: USD alone.
 
     Raises
     ------
     ExportError
-        If no format has the suffix, the format lacks a given option, or the file cannot be written.
+        If no format has the suffix, the format lacks a given option or does not take its value, or
+        the file cannot be written.
     """
     path = Path(path)
     found = _format_of(path)
-    if neutral is None and frame is None:
+    options = {"neutral": neutral, "frame": frame, "keys_within_m": keys_within_m}
+    asked = [name for name, value in options.items() if value is not None]
+    if not asked:
         found.writer()(performance, path)
         return
     if found.stage_writer is None:
-        asked = "frame" if neutral is None else "neutral"
         able = ", ".join(s for each in FORMATS if each.stage_writer for s in each.suffixes)
-        raise ExportError(f"{path}: expected {able} with {asked}, found {path.suffix}")
+        raise ExportError(f"{path}: expected {able} with {asked[0]}, found {path.suffix}")
     from actions_library.stage_frame import OURS
 
-    found.stage_writer()(performance, path, neutral=neutral, frame=frame or OURS)
+    found.stage_writer()(
+        performance, path, neutral=neutral, frame=frame or OURS, keys_within_m=keys_within_m
+    )
 
 
 def require_known_suffix(path: Path) -> None:

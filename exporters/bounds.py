@@ -1,4 +1,4 @@
-"""The bounding box of a moving character, without skinning any point."""
+"""What holds the skin of a character, moving or not, without skinning any point."""
 
 from __future__ import annotations
 
@@ -19,6 +19,31 @@ def joint_reach_m(character: Character) -> FloatArray:
         moved = mesh.joint_weights > 0
         np.maximum.at(reach, mesh.joint_indices[moved], away[moved])
     return reach
+
+
+def joint_boxes(character: Character) -> FloatArray:
+    """Return the corners of a box ``(j, 8, 3)`` in each joint's frame that holds what it moves.
+
+    That is the joint itself and the skin. A joint without skin that no other hangs from is given a
+    tip, as far away as the joint is from its parent: where it turns is seen all the same.
+    """
+    skeleton = character.skeleton
+    low, high = np.zeros((len(skeleton), 3)), np.zeros((len(skeleton), 3))
+    bind = skeleton.world_from_bind
+    bare = np.ones(len(skeleton), dtype=bool)
+    bare[skeleton.parents[skeleton.parents >= 0]] = False
+    for mesh in character.meshes:
+        point, place = np.nonzero(mesh.joint_weights > 0)
+        joint = mesh.joint_indices[point, place]
+        away = mesh.points_m[point] - bind[joint, :3, 3]
+        local = np.einsum("kij,ki->kj", bind[joint, :3, :3], away)
+        np.minimum.at(low, joint, local)
+        np.maximum.at(high, joint, local)
+        bare[joint] = False
+    tip = np.where(bare, np.linalg.norm(skeleton.rest_translation_m, axis=-1), 0.0)[:, None]
+    low, high = np.minimum(low, -tip), np.maximum(high, tip)
+    upper = np.array(list(np.ndindex(2, 2, 2)), dtype=bool)
+    return np.where(upper, high[:, None], low[:, None])
 
 
 def body_boxes(

@@ -17,7 +17,7 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 from exporters.palette import RGB, srgb_from_linear
 from exporters.performer import DEVICE_KEY
 from exporters.phrases import phrases_of
-from exporters.usd import PROPS, START_KEY
+from exporters.usd import START_KEY, places
 from smd.errors import ExportError
 from smd.geometry.arrays import FloatArray
 from smd.score import Phrase
@@ -169,7 +169,7 @@ def _figure(stage: Usd.Stage, root: Usd.Prim, skeleton: Any, targets: list[Any])
         triangles.append(_triangulated(mesh) + count)
         colors.append(np.tile(_color(mesh), (size, 1)))
         count += size
-    prop = stage.GetPrimAtPath(f"{PROPS}/{root.GetName()}")
+    prop = stage.GetPrimAtPath(places(skeleton.GetPrim().GetName()).prop)
     return Figure(
         name=root.GetCustomDataByKey(DEVICE_KEY) or root.GetName(),
         triangles=np.concatenate(triangles),

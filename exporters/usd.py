@@ -3,9 +3,11 @@
 ::
 
     /Performance                      default prim
-        /Actors/<device>              SkelRoot: Skeleton, Animation, meshes, Materials
-        /Doodles/<device>             BasisCurves, one a stretch, coloured by phrase
-        /Props/<device>               Xform that goes where the prop went
+        /Actors/<device>_character    SkelRoot: meshes, Materials
+            /<device>                 Skeleton
+            /<device>_animation       SkelAnimation
+        /Doodles/<device>_doodle      BasisCurves, one a stretch, coloured by phrase
+        /Props/<device>_prop          Xform that goes where the prop went
         /Scenery                      Ground, Camera
 
 Frame i of the performance is time code i, and a second has as many time codes as the
@@ -24,7 +26,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom
 from actions_library.naming import numbered
 from actions_library.stage_frame import OURS, StageFrame
 from actions_library.storage import new_stage
-from actions_library.usd_skel import unique_identifiers
+from actions_library.usd_skel import MATERIALS, unique_identifiers
 from exporters.package import write_package
 from exporters.palette import RGB, action_colors
 from exporters.performer import Performer, Places, define_performer
@@ -41,8 +43,6 @@ ACTORS, DOODLES, PROPS, SCENERY = (
 START_KEY = "smd:start_s"
 """In the layer's custom data, beside the performance's source: ``smd:`` and each entry's name."""
 
-_IN_LAYER = Places(*(f"/{PERFORMER}/{name}" for name in ("Actor", "Doodle", "Prop")))
-
 Files = dict[Path, Callable[[Path], None]]
 """The writer of each of the files that belong together (`smd.files.write_together`)."""
 
@@ -53,6 +53,7 @@ def write_usd(
     *,
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
+    keys_within_m: float | None = None,
 ) -> None:
     """Write a performance as one USD file; equal performances give equal bytes.
 
@@ -67,13 +68,20 @@ def write_usd(
         character's variant set ``expression``, and ``performance`` the variant ``expressive``.
     frame
         Coordinates of the USD stage.
+    keys_within_m
+        Few keys instead of one each frame: no point of the skin is further than this from where it
+        is at each frame (`exporters.keys`). Props keep every frame.
 
     Raises
     ------
     ExportError
-        If the file cannot be written, or the two performances do not fit each other.
+        If the file cannot be written, the two performances do not fit each other, or the distance
+        is not positive.
     """
-    write_together(usd_file(performance, Path(path), neutral=neutral, frame=frame))
+    files = usd_file(
+        performance, Path(path), neutral=neutral, frame=frame, keys_within_m=keys_within_m
+    )
+    write_together(files)
 
 
 def write_usd_layers(
@@ -82,6 +90,7 @@ def write_usd_layers(
     *,
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
+    keys_within_m: float | None = None,
 ) -> None:
     """Write a performance as a small file that references one more for each performer.
 
@@ -89,19 +98,35 @@ def write_usd_layers(
     none. Parameters and errors are those of `write_usd`; a package is one file, so that .usdz
     is an error too.
     """
-    write_together(usd_layers(performance, Path(path), neutral=neutral, frame=frame))
+    files = usd_layers(
+        performance, Path(path), neutral=neutral, frame=frame, keys_within_m=keys_within_m
+    )
+    write_together(files)
 
 
 def usd_file(
-    performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
+    performance: Performance,
+    path: Path,
+    *,
+    neutral: Performance | None,
+    frame: StageFrame,
+    keys_within_m: float | None,
 ) -> Files:
     """Return the writer of the file of `write_usd`."""
-    layer = performance_stage(performance, neutral=neutral, frame=frame).GetRootLayer()
+    stage = performance_stage(
+        performance, neutral=neutral, frame=frame, keys_within_m=keys_within_m
+    )
+    layer = stage.GetRootLayer()
     return {path: partial(_export, layer, path)}
 
 
 def usd_layers(
-    performance: Performance, path: Path, *, neutral: Performance | None, frame: StageFrame
+    performance: Performance,
+    path: Path,
+    *,
+    neutral: Performance | None,
+    frame: StageFrame,
+    keys_within_m: float | None,
 ) -> Files:
     """Return the writers of `write_usd_layers`; the file that refers to others is the last."""
     if path.suffix.lower() not in (".usda", ".usdc"):
@@ -111,20 +136,20 @@ def usd_layers(
     files: Files = {}
     boxes, references = [], []
     colors = _colors(performance)
-    performers = _performers(performance, neutral)
+    performers = _performers(performance, neutral, keys_within_m)
     names = _names(performance)
     # Where the file system does not tell Left from left, two layers would be one.
     file_names = numbered(name.lower() for name in names)
     for name, file_name, performer in zip(names, file_names, performers, strict=True):
-        inside = _new_stage(performance, PERFORMER, frame)
+        inside, inner = _new_stage(performance, PERFORMER, frame), _places_in_layer(name)
         UsdGeom.Xform.Define(inside, f"/{PERFORMER}")
         boxes += [
-            define_performer(inside, _IN_LAYER, performer, colors),
+            define_performer(inside, inner, performer, colors),
             *doodle_boxes(performer.actor),
         ]
         beside = path.with_name(f"{path.stem}.{file_name}.usdc")
         files[beside] = partial(_export, inside.GetRootLayer(), beside)
-        for here, there in zip(_places(name), _IN_LAYER, strict=True):
+        for here, there in zip(places(name)[:3], inner[:3], strict=True):
             if prim := inside.GetPrimAtPath(there):  # a doodle of one sample draws nothing
                 references.append(
                     (here, prim.GetTypeName(), Sdf.Reference(f"./{beside.name}", there))
@@ -146,16 +171,17 @@ def performance_stage(
     *,
     neutral: Performance | None = None,
     frame: StageFrame = OURS,
+    keys_within_m: float | None = None,
 ) -> Usd.Stage:
     """Return a performance as a USD stage in memory; parameters are those of `write_usd`."""
     stage = _new_stage(performance, ROOT, frame)
     _define_scopes(stage)
     colors = _colors(performance)
     boxes = []
-    performers = _performers(performance, neutral)
+    performers = _performers(performance, neutral, keys_within_m)
     for name, performer in zip(_names(performance), performers, strict=True):
         boxes += [
-            define_performer(stage, _places(name), performer, colors),
+            define_performer(stage, places(name), performer, colors),
             *doodle_boxes(performer.actor),
         ]
     _define_scenery(stage, performance, boxes)
@@ -189,16 +215,21 @@ def _define_scenery(
     }
 
 
-def _performers(performance: Performance, neutral: Performance | None) -> list[Performer]:
+def _performers(
+    performance: Performance, neutral: Performance | None, keys_within_m: float | None
+) -> list[Performer]:
     if neutral is None:
-        return [Performer(performance, i) for i in range(len(performance.actors))]
+        count = len(performance.actors)
+        return [Performer(performance, i, None, keys_within_m) for i in range(count)]
     told = [
         (p.rate_hz, p.start_s, len(p), [(a.name, a.character.skeleton.joints) for a in p.actors])
         for p in (performance, neutral)
     ]
     if told[0] != told[1]:
         raise ExportError("neutral: expected a performance of the same devices, joints and frames")
-    return [Performer(performance, i, actor) for i, actor in enumerate(neutral.actors)]
+    return [
+        Performer(performance, i, actor, keys_within_m) for i, actor in enumerate(neutral.actors)
+    ]
 
 
 def _colors(performance: Performance) -> dict[str, RGB]:
@@ -206,11 +237,25 @@ def _colors(performance: Performance) -> dict[str, RGB]:
 
 
 def _names(performance: Performance) -> list[str]:
-    return unique_identifiers(actor.name for actor in performance.actors)
+    # A Skeleton of that name would stand where the materials are.
+    return unique_identifiers([MATERIALS, *(actor.name for actor in performance.actors)])[1:]
 
 
-def _places(name: str) -> Places:
-    return Places(f"{ACTORS}/{name}", f"{DOODLES}/{name}", f"{PROPS}/{name}")
+def places(name: str) -> Places:
+    """Return where the prims of a device of this name are."""
+    return Places(
+        f"{ACTORS}/{name}_character",
+        f"{DOODLES}/{name}_doodle",
+        f"{PROPS}/{name}_prop",
+        name,
+        f"{name}_animation",
+    )
+
+
+def _places_in_layer(name: str) -> Places:
+    """Return where the prims of a device are in its own layer."""
+    actor, doodle, prop = (f"/{PERFORMER}/{kind}" for kind in ("Actor", "Doodle", "Prop"))
+    return Places(actor, doodle, prop, name, f"{name}_animation")
 
 
 def _export(layer: Sdf.Layer, path: Path, temporary: Path) -> None:

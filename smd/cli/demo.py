@@ -7,17 +7,24 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from smd.cli.option_groups import unfolded
+from smd.cli.writing import WritingOptions
+
 if TYPE_CHECKING:
+    from smd.acting.performance import Performance
     from smd.doodle import Recording
     from smd.score import Score
 
 STORY = "duel"
 
 
+@unfolded
 def demo(
     output: Annotated[
         Path, typer.Option("-o", "--output", help="The folder to write into; made where missing.")
     ] = Path("smd-demo"),
+    *,
+    writing: WritingOptions,
 ) -> None:
     """Convert a shipped recording, with pictures.
 
@@ -27,6 +34,8 @@ def demo(
     from smd.cli.score_lines import summary, table
     from smd.errors import ExportError
 
+    stage = output / f"{STORY}.usda"
+    writing.check(stage)
     try:
         output.mkdir(exist_ok=True)
     except OSError as error:
@@ -38,8 +47,10 @@ def demo(
     typer.echo(f"{source.name}: {summary(recording, score)}")
     typer.echo("\n".join(table(score)))
 
-    stage = output / f"{STORY}.usda"
-    smd.write(smd.animate(score, recording, library), stage)
+    def act(expressiveness: float) -> Performance:
+        return smd.animate(score, recording, library, expressiveness=expressiveness)
+
+    writing.write(score, act, 1.0, stage)
     typer.echo(f"{stage}: the animation; open it in Blender, usdview or Unreal")
     _draw(stage, recording, score, output)
 

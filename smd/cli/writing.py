@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -34,6 +35,17 @@ class StageUnit(StrEnum):
     CM = "cm"
 
 
+class Keys(StrEnum):
+    """Frames that get a key."""
+
+    ALL = "all"
+    REDUCED = "reduced"
+
+
+WITHIN_MM = 1.0
+"""How far reduced keys may lead the skin away, unless the user says."""
+
+
 @dataclass(frozen=True, slots=True)
 class WritingOptions:
     """How the user said that an animation is to be written."""
@@ -62,6 +74,16 @@ class WritingOptions:
     stage_unit: Annotated[
         StageUnit, typer.Option(help="Unit of the animation written: m or cm.")
     ] = StageUnit.M
+    keys: Annotated[
+        Keys, typer.Option(help="A key each frame: all; or as few as --within allows: reduced.")
+    ] = Keys.ALL
+    within: Annotated[
+        float | None,
+        typer.Option(
+            metavar="MM",
+            help=f"Millimetres that reduced keys may lead the skin away. Default: {WITHIN_MM:g}.",
+        ),
+    ] = None
 
     def check(self, path: Path) -> None:
         """Raise ExportError if no animation can be written so under this name."""
@@ -75,6 +97,11 @@ class WritingOptions:
             raise ExportError(f"{path}: expected {', '.join(_USD)} with {asked[0]}, found {suffix}")
         if self.layers and suffix == ".usdz":
             raise ExportError(f"{path}: expected .usda or .usdc with --layers, found .usdz")
+        if self.within is not None:
+            if self.keys is Keys.ALL:
+                raise ExportError("--within: expected --keys reduced with it, found --keys all")
+            if not (math.isfinite(self.within) and self.within > 0):
+                raise ExportError(f"--within: expected millimetres above 0, found {self.within:g}")
 
     def _of_usd(self) -> dict[str, bool]:
         """Return whether each option that USD alone has was asked for."""
@@ -83,6 +110,7 @@ class WritingOptions:
             "--variants": self.variants,
             "--stage-up": self.stage_up is not StageUp.Y,
             "--stage-unit": self.stage_unit is not StageUnit.M,
+            "--keys": self.keys is not Keys.ALL,
         }
 
     def write(
@@ -117,7 +145,10 @@ class WritingOptions:
 
         plan = usd_layers if self.layers else usd_file
         frame = StageFrame.named(self.stage_up, self.stage_unit)
-        return plan(performance, path, neutral=neutral, frame=frame)
+        within_m = None
+        if self.keys is Keys.REDUCED:
+            within_m = 0.001 * (WITHIN_MM if self.within is None else self.within)
+        return plan(performance, path, neutral=neutral, frame=frame, keys_within_m=within_m)
 
 
 def has_effort(score: Score) -> bool:

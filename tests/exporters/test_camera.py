@@ -38,11 +38,11 @@ def seen(stage: Usd.Stage, points) -> np.ndarray:
 def test_bodies_doodles_and_props_are_in_the_picture_at_every_frame(stage):
     everything = []
     for name in ("left_hand", "right_hand"):
-        curves = UsdGeom.BasisCurves(stage.GetPrimAtPath(f"/Performance/Doodles/{name}"))
+        curves = UsdGeom.BasisCurves(stage.GetPrimAtPath(f"/Performance/Doodles/{name}_doodle"))
         everything.append(np.array(curves.GetPointsAttr().Get()))
-        dart = UsdGeom.Mesh(stage.GetPrimAtPath(f"/Performance/Props/{name}/Dart"))
+        dart = UsdGeom.Mesh(stage.GetPrimAtPath(f"/Performance/Props/{name}_prop/Dart"))
         for code in range(49):
-            everything.append(skinned(stage, f"/Performance/Actors/{name}", code)[::5])
+            everything.append(skinned(stage, f"/Performance/Actors/{name}_character", code)[::5])
             world = UsdGeom.Xformable(dart).ComputeLocalToWorldTransform(code)
             points = dart.GetPointsAttr().Get()
             everything.append(np.array([world.Transform(point) for point in points]))

@@ -11,6 +11,8 @@ import exporters
 from actions_library.stage_frame import StageFrame
 from smd.errors import ExportError
 
+CM = StageFrame.named("z", "cm")
+
 every_suffix = pytest.mark.parametrize(
     "suffix", [suffix for kind in exporters.FORMATS for suffix in kind.suffixes]
 )
@@ -45,7 +47,7 @@ def test_what_cannot_be_written_is_one_line_that_begins_with_the_file(
 def test_options_are_kept_or_refused(performance, suffix, tmp_path):
     (kind,) = (each for each in exporters.FORMATS if suffix in each.suffixes)
     path = tmp_path / f"take{suffix}"
-    for options in ({"neutral": performance}, {"frame": StageFrame.named("z", "cm")}):
+    for options in ({"neutral": performance}, {"frame": CM}, {"keys_within_m": 0.01}):
         if kind.stage_writer is not None:
             exporters.write(performance, path, **options)
             assert path.exists()

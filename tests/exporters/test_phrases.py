@@ -14,7 +14,8 @@ from smd.errors import ExportError
 def test_each_character_names_its_phrases_in_seconds_and_time_codes(performance, tmp_path):
     write_usd(performance, tmp_path / "a.usda")
     stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
-    named = stage.GetPrimAtPath("/Performance/Actors/left_hand").GetCustomDataByKey(PHRASES_KEY)
+    prim = stage.GetPrimAtPath("/Performance/Actors/left_hand_character")
+    named = prim.GetCustomDataByKey(PHRASES_KEY)
     assert list(named) == ["p0000", "p0001"]
     walk, punch = named["p0000"], named["p0001"]
     assert walk["action"] == "walk"
@@ -73,5 +74,6 @@ def test_phrases_of_somebody_else_are_one_line_that_names_file_and_prim(
     prim = stage.GetPrimAtPath("/Performance/Actors").GetChildren()[0]
     prim.SetCustomDataByKey(PHRASES_KEY, entries)
     stage.GetRootLayer().Save()
-    with pytest.raises(ExportError, match=r"a\.usdc: /Performance/Actors/left_hand: smd:phrases"):
+    prim_path = "/Performance/Actors/left_hand_character"
+    with pytest.raises(ExportError, match=rf"a\.usdc: {prim_path}: smd:phrases"):
         read_scene(path)

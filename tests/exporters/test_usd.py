@@ -49,7 +49,7 @@ def test_no_validator_finds_anything_wrong(written):
 def test_the_validators_would_find_something_wrong(written):
     stage = Usd.Stage.Open(str(written))
     stage.SetEditTarget(stage.GetSessionLayer())
-    stage.GetPrimAtPath("/Performance/Actors/left_hand").SetTypeName("Xform")
+    stage.GetPrimAtPath("/Performance/Actors/left_hand_character").SetTypeName("Xform")
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     assert UsdValidation.ValidationContext(validators).Validate(stage)
 
@@ -90,16 +90,16 @@ def test_usd_skins_each_actor_as_we_do(stage, performance, frame):
             skeleton, actor.poses.rotation_xyzw[frame], actor.poses.translation_m[frame]
         )
         ours = skin_points(actor.character.meshes[0], skeleton, *pose)
-        theirs = skinned(stage, f"/Performance/Actors/{name}", frame)
+        theirs = skinned(stage, f"/Performance/Actors/{name}_character", frame)
         np.testing.assert_allclose(theirs, ours, atol=2e-5)  # metres, in single precision
 
 
 def test_the_extent_holds_the_skin_and_little_else(stage):
     for name in ("left_hand", "right_hand"):
-        root = UsdSkel.Root(stage.GetPrimAtPath(f"/Performance/Actors/{name}"))
+        root = UsdSkel.Root(stage.GetPrimAtPath(f"/Performance/Actors/{name}_character"))
         for frame in range(0, 49, 6):
             low, high = map(np.array, root.GetExtentAttr().Get(frame))
-            points = skinned(stage, f"/Performance/Actors/{name}", frame)
+            points = skinned(stage, f"/Performance/Actors/{name}_character", frame)
             assert (low <= points.min(axis=0)).all()
             assert (high >= points.max(axis=0)).all()
             assert (high - low - np.ptp(points, axis=0)).max() < 0.7  # metres
@@ -108,7 +108,7 @@ def test_the_extent_holds_the_skin_and_little_else(stage):
 def test_the_prop_goes_where_the_doodle_went(stage, performance):
     actor = performance.actors[0]
     doodle = actor.doodles[0]
-    prim = UsdGeom.Xformable(stage.GetPrimAtPath("/Performance/Props/left_hand"))
+    prim = UsdGeom.Xformable(stage.GetPrimAtPath("/Performance/Props/left_hand_prop"))
     for frame in (0, 5, 48):
         at_s = [performance.start_s + frame / performance.rate_hz]
         matrix = prim.ComputeLocalToWorldTransform(frame)
@@ -121,14 +121,14 @@ def test_the_prop_goes_where_the_doodle_went(stage, performance):
 
 
 def test_the_prop_hides_while_tracking_is_lost(stage):
-    prop = UsdGeom.Imageable(stage.GetPrimAtPath("/Performance/Props/right_hand"))
+    prop = UsdGeom.Imageable(stage.GetPrimAtPath("/Performance/Props/right_hand_prop"))
     # Lost from 10.8 to 11.2 s, that is from frame 19.2 to 28.8.
     seen = [prop.ComputeVisibility(frame) == UsdGeom.Tokens.inherited for frame in range(49)]
     assert seen == [not 19.2 < frame < 28.8 for frame in range(49)]
 
 
 def test_the_doodle_is_one_curve_a_stretch(stage, performance):
-    curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Performance/Doodles/left_hand"))
+    curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Performance/Doodles/left_hand_doodle"))
     counts = np.array(curves.GetCurveVertexCountsAttr().Get())
     colors = np.array(curves.GetDisplayColorPrimvar().ComputeFlattened())
     doodle = performance.actors[0].doodles[0]
@@ -144,12 +144,12 @@ def test_the_doodle_is_one_curve_a_stretch(stage, performance):
         points[ends[:-1]], interpolate_linear(doodle.time_s, doodle.position_m, border_s), atol=0.05
     )
     # The other hand's doodle is lost from 10.8 to 11.2 s: idle, walk; punch, idle.
-    other = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Performance/Doodles/right_hand"))
+    other = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Performance/Doodles/right_hand_doodle"))
     assert len(other.GetCurveVertexCountsAttr().Get()) == 4
 
 
 def test_meshes_face_outward_and_enclose_their_volume(stage):
-    for path in ("Actors/left_hand/Body", "Props/left_hand/Dart"):
+    for path in ("Actors/left_hand_character/Body", "Props/left_hand_prop/Dart"):
         mesh = UsdGeom.Mesh(stage.GetPrimAtPath(f"/Performance/{path}"))
         points = np.array(mesh.GetPointsAttr().Get())
         a, b, c = points[np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)].swapaxes(
@@ -163,7 +163,7 @@ def test_the_camera_sees_every_body(stage):
     frustum = camera.GetCamera(0).frustum
     for name in ("left_hand", "right_hand"):
         for frame in (0, 24, 48):
-            for point in skinned(stage, f"/Performance/Actors/{name}", frame)[::7]:
+            for point in skinned(stage, f"/Performance/Actors/{name}_character", frame)[::7]:
                 assert frustum.Intersects(point.tolist())
 
 
@@ -191,6 +191,27 @@ def test_devices_of_any_name_get_prims_of_their_own(performance, tmp_path):
     stage = Usd.Stage.Open(str(tmp_path / "a.usda"))
     roots = stage.GetPrimAtPath("/Performance/Actors").GetChildren()
     assert [root.GetCustomDataByKey("smd:device") for root in roots] == ["手 1", "手-1"]
+
+
+def test_a_device_s_name_is_its_skeleton_s_alone(stage):
+    # Blender names objects after prims: the armature is to have the name, and no number behind it.
+    for name in ("left_hand", "right_hand"):
+        named = [prim for prim in stage.Traverse() if prim.GetName() == name]
+        assert [prim.GetTypeName() for prim in named] == ["Skeleton"]
+
+
+@pytest.mark.parametrize("devices", [("Materials", "Body"), ("Body_animation", "Skeleton")])
+def test_devices_may_be_called_as_prims_are(performance, tmp_path, devices):
+    named = [replace(a, name=n) for a, n in zip(performance.actors, devices, strict=True)]
+    write_usd(replace(performance, actors=tuple(named)), tmp_path / "a.usdc")
+    stage = Usd.Stage.Open(str(tmp_path / "a.usdc"))
+    for root, device in zip(
+        stage.GetPrimAtPath("/Performance/Actors").GetChildren(), devices, strict=True
+    ):
+        assert root.GetCustomDataByKey("smd:device") == device
+        skinned(stage, str(root.GetPath()), 17)
+        kinds = [child.GetTypeName() for child in root.GetChildren()]
+        assert sorted(kinds) == ["Mesh", "Scope", "SkelAnimation", "Skeleton"]
 
 
 def test_a_single_frame_and_sample_is_a_stage_too(performance, tmp_path):

@@ -15,7 +15,7 @@ from smd.errors import ExportError
 from tests.exporters.skinned import skinned
 
 FRAMES = [StageFrame(up, unit_m) for up in "yz" for unit_m in (1.0, 0.01)]
-ACTOR = "/Performance/Actors/left_hand"
+ACTOR = "/Performance/Actors/left_hand_character"
 
 
 @pytest.fixture(scope="module")
@@ -80,8 +80,8 @@ def test_usd_skins_to_the_same_world_in_any_frame(framed, plain, code):
 def test_what_stands_around_is_converted_too(framed, both):
     def everything(stage):
         prim = stage.GetPrimAtPath
-        curves = UsdGeom.BasisCurves(prim("/Performance/Doodles/left_hand"))
-        dart = UsdGeom.Mesh(prim("/Performance/Props/left_hand/Dart"))
+        curves = UsdGeom.BasisCurves(prim("/Performance/Doodles/left_hand_doodle"))
+        dart = UsdGeom.Mesh(prim("/Performance/Props/left_hand_prop/Dart"))
         world = UsdGeom.Xformable(dart).ComputeLocalToWorldTransform(17)
         camera = UsdGeom.Camera(prim("/Performance/Scenery/Camera"))
         lens = camera.GetCamera(0)
@@ -109,14 +109,14 @@ def test_lenses_and_widths_are_lengths(framed):
     assert camera.GetHorizontalApertureAttr().Get() * unit_m / 10 == pytest.approx(0.036)
     assert camera.GetVerticalApertureAttr().Get() * unit_m / 10 == pytest.approx(0.02025)
     assert camera.GetClippingRangeAttr().Get()[0] * unit_m == pytest.approx(0.05)
-    curves = UsdGeom.BasisCurves(framed.GetPrimAtPath("/Performance/Doodles/left_hand"))
+    curves = UsdGeom.BasisCurves(framed.GetPrimAtPath("/Performance/Doodles/left_hand_doodle"))
     assert curves.GetWidthsAttr().Get()[0] * unit_m == pytest.approx(0.03)
 
 
 def test_the_skeleton_at_rest_is_the_same_in_any_frame(framed, plain):
     for name in ("GetBindTransformsAttr", "GetRestTransformsAttr"):
         theirs, expected = (
-            getattr(UsdSkel.Skeleton(stage.GetPrimAtPath(f"{ACTOR}/Skeleton")), name)().Get()
+            getattr(UsdSkel.Skeleton(stage.GetPrimAtPath(f"{ACTOR}/left_hand")), name)().Get()
             for stage in (framed, plain)
         )
         places = [matrix.ExtractTranslation() for matrix in theirs]

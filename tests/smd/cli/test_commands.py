@@ -72,6 +72,23 @@ def test_demo_makes_what_it_says(run_smd, tmp_path):
     assert "duel.filmstrip.png" in made or "no filmstrip" in out
 
 
+def test_demo_writes_its_animation_as_it_is_told(run_smd, tmp_path, monkeypatch):
+    from pxr import Usd, UsdGeom
+
+    monkeypatch.setattr("smd.cli.demo._draw", lambda *_: None)
+    options = ["--keys", "reduced", "--stage-up", "z", "--phrases"]
+    code, _, err = run_smd("demo", "-o", tmp_path, *options)
+    assert (code, err) == (0, "")
+    stage = Usd.Stage.Open(str(tmp_path / "duel.usda"))
+    assert UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z
+    animation = stage.GetPrimAtPath("/Performance/Actors/knight_character/knight_animation")
+    assert len(animation.GetAttribute("rotations").GetTimeSamples()) < stage.GetEndTimeCode()
+    assert (tmp_path / "duel.phrases.csv").is_file()
+    code, _, err = run_smd("demo", "-o", tmp_path / "none", "--within", "1")
+    assert (code, len(err.splitlines())) == (3, 1)
+    assert not (tmp_path / "none").exists()
+
+
 def test_the_command_lines_figure_height_is_the_librarys():
     from smd.cli.parsing import FIGURE_HEIGHT_M
     from smd.doodle import DEFAULT_FIGURE_HEIGHT_M

@@ -22,9 +22,9 @@ def test_two_controllers_become_two_performers_on_a_valid_stage(
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     found = UsdValidation.ValidationContext(validators).Validate(stage)
     assert [error.GetMessage() for error in found] == []
-    roots = [prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Root)]
+    skeletons = [prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)]
     hands = {"left", "right"} if name == "tracked-recording" else {"leftHand", "rightHand"}
-    assert {prim.GetName() for prim in roots} == hands
+    assert {prim.GetName() for prim in skeletons} == hands
     animations = [UsdSkel.Animation(p) for p in stage.Traverse() if p.IsA(UsdSkel.Animation)]
     assert len(animations) == 2
     for animation in animations:
