@@ -59,7 +59,8 @@ def _warnings(library: Library) -> Iterator[str]:
         )
     rests = {IDLE, *(action.rest for action in library.actions)}
     for action in library.actions:
-        if action.pattern is None and action.name not in rests:
+        # An undrawn action that is described is meant to be so.
+        if action.pattern is None and not action.description and action.name not in rests:
             yield f"action {action.name!r}: no pattern: it will not be recognised"
     yield from _clip_warnings(library)
     patterns = {action.name: action.pattern for action in library.actions if action.pattern}

@@ -372,7 +372,28 @@ HUMANOID_ACTIONS: tuple[Action, ...] = (
         Pattern.parse(f"{_tilt('')} {_tilt('_N', *_RISE)} {_either(*_RISE)}"),
         description="Rock the prop forward and upright, lift it.",
     ),
+    Action(
+        "gallop_left",
+        None,
+        travels=True,
+        cyclic=True,
+        description="Not drawn: a side-step to the left that is in a hurry.",
+    ),
+    Action(
+        "gallop_right",
+        None,
+        travels=True,
+        cyclic=True,
+        description="Not drawn: a side-step to the right that is in a hurry.",
+    ),
+    Action(
+        "run_backward",
+        None,
+        travels=True,
+        cyclic=True,
+        description="Not drawn: a walk backward that is in a hurry.",
+    ),
     Action(IDLE, None, cyclic=True),
     Action("idle_sitting", None, cyclic=True, rest="idle_sitting"),
 )
-"""What the shipped humanoid can do, and `IDLE`, which nobody draws."""
+"""What the shipped humanoid can do; `IDLE` and a few others nobody draws."""

@@ -23,6 +23,7 @@ CLIPS = {clip.name: clip for clip in humanoid_clips(humanoid_skeleton())}
 CYCLIC = [
     *("walk", "run", "sneak", "walk_backward", "side_step_left", "side_step_right", "hop"),
     *("crawl", "fly", "swim", "climb", "dance", "idle", "idle_sitting"),
+    *("gallop_left", "gallop_right", "run_backward"),
 ]
 GESTURES = sorted(set(CLIPS) - set(CYCLIC))
 WAY = {  # metres to the left and ahead, from the first to the last frame
@@ -32,6 +33,9 @@ WAY = {  # metres to the left and ahead, from the first to the last frame
     "walk_backward": (0.0, -0.92),
     "side_step_left": (0.60, 0.0),
     "side_step_right": (-0.60, 0.0),
+    "gallop_left": (1.00, 0.0),
+    "gallop_right": (-1.00, 0.0),
+    "run_backward": (0.0, -1.32),
     "jump": (0.0, 1.20),
     "leap": (0.0, 2.30),
     "crawl": (0.0, 0.62),
@@ -177,7 +181,7 @@ def test_a_clip_travels_as_far_as_its_feet_and_as_it_says(name):
     assert measure(clip).feet_travel_m == pytest.approx(np.hypot(left, ahead), abs=0.005)
 
 
-@pytest.mark.parametrize("name", ["walk", "run"])
+@pytest.mark.parametrize("name", ["walk", "run", "run_backward"])
 def test_a_gait_is_its_mirror_image_half_a_cycle_later(name):
     clip = CLIPS[name]
     half = (len(clip) - 1) // 2
@@ -202,7 +206,7 @@ def test_a_runner_is_in_the_air_twice_a_cycle_and_a_walker_never():
     assert (stands("walk") | low[0] | low[1]).all()
 
 
-@pytest.mark.parametrize("name", ["side_step", "turn"])
+@pytest.mark.parametrize("name", ["side_step", "gallop", "turn"])
 def test_the_right_way_is_the_left_way_s_mirror_image_from_the_first_pose_on(name):
     left, right = CLIPS[f"{name}_left"], CLIPS[f"{name}_right"]
     tolerance_m = 0.08 if name == "turn" else 1e-6  # both turns start in one unsymmetric stance

@@ -10,6 +10,7 @@ from actions_library.authoring.clips import (
     idling,
     joy,
     jumps,
+    quick_steps,
     side_steps,
     sitting,
     strikes,
@@ -53,6 +54,9 @@ _CLIPS = (
     sitting.crouch,
     sitting.sit_down,
     sitting.stand_up,
+    quick_steps.gallop_left,
+    quick_steps.gallop_right,
+    quick_steps.run_backward,
     idling.idle,
     sitting.idle_sitting,
 )

@@ -344,6 +344,7 @@ def test_a_folder_of_other_things_is_not_made_a_library(run_smd, takes, tmp_path
 def test_the_shipped_library_is_whole(run_smd):
     code, out, err = run_smd("library", "check")
     assert (code, err, "0 faults" in out) == (0, "", True)
+    assert "no pattern" not in out
 
 
 def test_real_gestures_learned_from_three_are_found_in_a_fourth(run_smd, shared_data, tmp_path):

@@ -61,6 +61,17 @@ def test_a_clip_is_imported_learned_and_played(run_smd, mine, stories, tmp_path)
     assert load_library(mine).action("walk").pattern is None
 
 
+def test_an_action_without_a_gesture_is_warned_of_unless_a_word_says_that_it_is_meant(
+    run_smd, mine
+):
+    clip = load_library().folder / "clips" / "walk.usdc"
+    imported = ("library", "import", mine, clip, "--action", "walk", "--travels", "--cyclic")
+    for options, warned in (((), True), (("--replace", "--description", "Not drawn."), False)):
+        assert run_smd(*imported, *options)[0] == 0
+        code, out, _ = run_smd("library", "check", "--library", mine)
+        assert (code, "'walk': no pattern: it will not be recognised" in out) == (0, warned)
+
+
 def test_an_action_that_is_there_needs_replace_and_keeps_its_gesture(run_smd, tmp_path):
     import shutil
 
