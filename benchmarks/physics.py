@@ -1,8 +1,8 @@
 """Whether a movement is physically possible: its mass centre, its zero moment point, its jumps.
 
 All figures are of joints over time at an even `RATE_HZ`, whatever they come from. The body's mass
-is that of Winter's segments (`benchmarks.clips.SEGMENTS`), the hands' included; the path of its
-centre is low-passed at `LOWPASS_HZ`, as in gait laboratories [1]_.
+is that of Winter's segments (`actions_library.authoring.mass`), the hands' included; the path of
+its centre is low-passed at `LOWPASS_HZ`, as in gait laboratories [1]_.
 
 The zero moment point is where the ground's force would have to act so that the body neither tips
 over nor turns over [2]_: below the mass centre, moved against its acceleration. A real one is
@@ -23,7 +23,7 @@ from itertools import combinations
 
 import numpy as np
 
-from benchmarks.clips import SEGMENTS, SIDES
+from actions_library.authoring.mass import SEGMENTS, SIDES
 from smd.acting.flight import GRAVITY_M_S2
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses
