@@ -24,6 +24,7 @@ from laban.frozen import Frozen
 from smd.acting.terrain import Terrain
 from smd.cast import Cast
 from smd.character.ik import limb_of
+from smd.character.mass import mass_of
 from smd.recognition.automaton import compile_automaton
 from smd.recognition.compiled_actions import compile_actions
 from smd.recognition.lever import LeverArm
@@ -86,6 +87,7 @@ def roots() -> list[Any]:
         compile_actions(library),
         compile_automaton(pattern),
         Score((), "made up"),
+        mass_of(skeleton),
     ]
 
 
