@@ -16,6 +16,7 @@ from smd.acting.performance import Actor
 from smd.acting.slope import slope
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
+from smd.character.mass import Mass
 from smd.character.poses import Poses
 from smd.doodle import Doodle
 from smd.errors import TransferError
@@ -55,6 +56,7 @@ def act(
     phrases: Sequence[Phrase] = (),
     doodles: Sequence[Doodle] = (),
     terrain: Terrain | None = None,
+    mass: Mass | None = None,
 ) -> Actor:
     """Act out moves, one after the other.
 
@@ -76,6 +78,8 @@ def act(
         What it performs, and its doodles: their heights decide those of its flights.
     terrain
         The ground; by default level.
+    mass
+        Where the body's weight is, if it is to be brought over its feet.
 
     Raises
     ------
@@ -96,6 +100,7 @@ def act(
         phrases=phrases,
         doodles=doodles,
         terrain=terrain,
+        mass=mass,
     )
 
 
@@ -112,6 +117,7 @@ def grounded_actor(
     phrases: Sequence[Phrase] = (),
     doodles: Sequence[Doodle] = (),
     terrain: Terrain | None = None,
+    mass: Mass | None = None,
 ) -> Actor:
     """Put poses on the ground: feet that should stand do, and none is in the ground.
 
@@ -145,7 +151,7 @@ def grounded_actor(
     if terrain is not None:
         way, time_s = poses.translation_m[:, 0, [0, 2]], Frames(start_s, rate_hz, count).time_s
         ground = slope(terrain, way, rise.flies, time_s, rate_hz, name)
-    done = grounded(character.skeleton, poses, footwork, legs, rate_hz, rise, ground)
+    done = grounded(character.skeleton, poses, footwork, legs, rate_hz, rise, ground, mass)
     return Actor(name, character, done, phrases=tuple(phrases), doodles=tuple(doodles))
 
 

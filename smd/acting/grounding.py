@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from smd.acting.balance import balance_shift
 from smd.acting.flight import LOWEST
 from smd.acting.footing import footing
 from smd.acting.legs import Leg, pelvis_of, sole_height, world_of, yaw_of
@@ -14,6 +15,7 @@ from smd.acting.move import Footwork
 from smd.acting.slope import Slope
 from smd.acting.stepping import stepping
 from smd.character.ik import two_bone_ik
+from smd.character.mass import Mass
 from smd.character.poses import Poses
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
@@ -48,6 +50,7 @@ def grounded(
     rate_hz: float,
     rise: Rise | None = None,
     slope: Slope | None = None,
+    mass: Mass | None = None,
 ) -> Poses:
     """Return poses without foot sliding and without feet in the ground.
 
@@ -61,6 +64,8 @@ def grounded(
         How much higher than in the poses body and feet are.
     slope
         What they stand on, where the ground is not level.
+    mass
+        Where the body's weight is, if it is to be brought over the feet.
     """
     stands, pivot_rad = footwork
     rise = rise or level(len(stands))
@@ -70,25 +75,27 @@ def grounded(
     higher_m = (rise.body_m + ridden_m)[:, None] * [0.0, 1.0, 0.0]
     hips = [hip_m + higher_m for hip_m in own_hips]
     stands, lift_m = _stepping(legs, raw, stands, pivot_rad, rate_hz)
-    feet = []
-    for i, leg in enumerate(legs):
-        by = (pivot_rad[:, i], lift_m[:, i], rise.feet_m, slope, rate_hz)
-        foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
-        if not foot.able.all():  # let go of the ground earlier, or take hold of it later
-            foot = _put(leg, raw[i], hips[i], stands[:, i] & foot.able, *by)
-        feet.append(foot)
-    rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     pelvis = pelvis_of(skeleton, legs)
+    feet = _feet(legs, raw, hips, stands, pivot_rad, lift_m, rise, slope, rate_hz)
+    moved_m = np.zeros_like(poses.translation_m[:, 0])
+    if mass is not None and pelvis is not None:
+        moved_m[:, [0, 2]] = _balancing(skeleton, poses, mass, feet, rise, rate_hz)
+        hips = [hip_m + moved_m for hip_m in hips]
+        feet = _feet(legs, raw, hips, stands, pivot_rad, lift_m, rise, slope, rate_hz)
+    rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
     translation[:, pelvis or 0, 1] += rise.body_m
     translation[:, 0, 1] += ridden_m
     sunk_m = np.zeros_like(translation[:, 0])
     if pelvis is not None:
-        short_m, room_m = (np.stack(part) for part in zip(*(f[5:] for f in feet), strict=True))
+        short_m, room_m = (np.stack(part) for part in zip(*(f[6:] for f in feet), strict=True))
         sunk_m[:, 1] = _sunk(short_m.max(axis=0), room_m.min(axis=0), rate_hz)
         sunk_m[:, 1] = _straight(sunk_m[:, 1], rise.flies)
         translation[:, pelvis] -= sunk_m
+        if mass is not None:
+            translation[:, pelvis] += rotate(inverse(rotation[:, 0]), moved_m)
     for i, foot in enumerate(feet):
-        own_m = raw[i][1] + higher_m - sunk_m  # the leg's own, with the body
+        free = smootherstep(_frames_to(foot.stands) / (FREED_S * rate_hz))[:, None]
+        own_m = raw[i][1] + higher_m - sunk_m + free * moved_m  # the leg's own, with the body
         level_m = foot.ankle_m - foot.laid_m
         ankle_m = own_m + _loosened(level_m - own_m, stands[:, i], rate_hz) + foot.laid_m
         if slope is not None:
@@ -121,7 +128,7 @@ class _Foot(NamedTuple):
     """Where a foot goes: its rotation and ankle in the world.
 
     ``laid_m`` is how much of it is due to the ground's not being level;
-    ``able`` is when the leg can hold it there;
+    ``stands`` is when it stands; ``able`` is when the leg can hold it there;
     ``short_m`` is how much too high the hip is for the leg to reach a standing foot, 0 otherwise;
     ``room_m`` how far it may sink before the knee of a standing foot is bent too much.
     """
@@ -130,9 +137,52 @@ class _Foot(NamedTuple):
     rotation_xyzw: FloatArray
     ankle_m: FloatArray
     laid_m: FloatArray
+    stands: BoolArray
     able: BoolArray
     short_m: FloatArray
     room_m: FloatArray
+
+
+def _feet(
+    legs: Sequence[Leg],
+    raw: Sequence[tuple[FloatArray, FloatArray]],
+    hips: Sequence[FloatArray],
+    stands: BoolArray,
+    pivot_rad: FloatArray,
+    lift_m: FloatArray,
+    rise: Rise,
+    slope: Slope | None,
+    rate_hz: float,
+) -> list[_Foot]:
+    """Return where all feet go."""
+    feet = []
+    for i, leg in enumerate(legs):
+        by = (pivot_rad[:, i], lift_m[:, i], rise.feet_m, slope, rate_hz)
+        foot = _put(leg, raw[i], hips[i], stands[:, i], *by)
+        if not foot.able.all():  # let go of the ground earlier, or take hold of it later
+            foot = _put(leg, raw[i], hips[i], stands[:, i] & foot.able, *by)
+        feet.append(foot)
+    return feet
+
+
+def _balancing(
+    skeleton: Skeleton,
+    poses: Poses,
+    mass: Mass,
+    feet: Sequence[_Foot],
+    rise: Rise,
+    rate_hz: float,
+) -> FloatArray:
+    """Return how far over the ground a body is moved ``(n, 2)`` for its weight's sake."""
+    centre_m = mass.centre_m(skeleton, *poses)
+    centre_m[:, 1] += rise.body_m
+    soles = [
+        [foot.ankle_m + rotate(foot.rotation_xyzw, point) for point in (f.heel_m, f.ball_m)]
+        for foot, f in ((foot, foot.leg) for foot in feet)
+    ]
+    soles_m = np.moveaxis(np.array(soles)[..., [0, 2]], 2, 0)
+    stands = np.stack([foot.stands for foot in feet], axis=1)
+    return balance_shift(centre_m, soles_m, stands, rise.flies, mass.height_m, rate_hz)
 
 
 def _put(
@@ -167,7 +217,7 @@ def _put(
     room_m = np.where(step.stands, np.maximum(above_m - lowest_m, 0.0), np.inf)
     able = (short_m <= MOST_SINK_M) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
     able &= np.hypot(aside_m, above_m) >= leg.limb.span_m(MOST_BEND_RAD)
-    return _Foot(leg, foot_q, ankle_m, laid_m, able, short_m, room_m)
+    return _Foot(leg, foot_q, ankle_m, laid_m, step.stands, able, short_m, room_m)
 
 
 def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:
