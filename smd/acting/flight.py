@@ -30,6 +30,9 @@ its own height."""
 FLOATING = 3.0
 """Factor by which a flight may be slower or faster than free fall, within its clip's limits."""
 
+PACE_S = 0.03
+"""Time before take-off and after landing over which a clip's pace on the ground is taken."""
+
 YIELDING_S = 0.3
 """Time before take-off in which the difference to the clip's velocity is built up, and time after
 landing in which it is absorbed: a higher jump crouches deeper, before and after."""
@@ -147,13 +150,22 @@ def airborne(body_m: FloatArray, touches: BoolArray) -> Airborne | None:
     change = np.diff(touches.astype(np.int8))
     leaves, lands = np.flatnonzero(change < 0).tolist(), (np.flatnonzero(change > 0) + 1).tolist()
     lands = [frame for frame in lands if leaves and frame > leaves[0]]
-    found = [pair for pair in zip(leaves, lands, strict=False) if _flies(body_m, *pair)]
-    return Airborne(*found[0], body_m) if len(found) == 1 else None
+    flights_ = [Airborne(*pair, body_m) for pair in zip(leaves, lands, strict=False)]
+    found = [one for one in flights_ if _flies(one)]
+    return found[0] if len(found) == 1 else None
 
 
-def _flies(body_m: FloatArray, first: int, last: int) -> bool:
-    over_m = _over_line_m(body_m, first, last)
-    return bool(over_m.max() > LEAST_APEX_M and over_m.min() > -LEAST_APEX_M)
+def _flies(one: Airborne) -> bool:
+    return bool(one.apex_m > LEAST_APEX_M and one.over_line_m.min() > -LEAST_APEX_M)
+
+
+def fall_s(prop_rise_m: float, flown: Airborne) -> float:
+    """Return how long a body is in free fall that jumps as high as its prop rose.
+
+    The height is limited to `LOWEST` and `HIGHEST` times the clip's own apex.
+    """
+    apex_m = float(np.clip(prop_rise_m, LOWEST * flown.apex_m, HIGHEST * flown.apex_m))
+    return float(np.sqrt(8.0 * apex_m / GRAVITY_M_S2))
 
 
 def flights(moves: Sequence[Move[Playable]], height: Height | None) -> Iterator[Flight]:
@@ -185,22 +197,18 @@ def in_air(all_flights: Sequence[Flight], time_s: FloatArray) -> BoolArray:
     return flies
 
 
-def _over_line_m(body_m: FloatArray, first: int, last: int) -> FloatArray:
-    """Return how high a body is over the line from one frame to another, in those frames."""
-    return body_m[first : last + 1] - np.linspace(body_m[first], body_m[last], last - first + 1)
-
-
 def _flight(move: Move[Playable], height: Height | None, flown: Airborne) -> Flight:
     first, last, body_m = flown.first, flown.last, flown.body_m
     take_off_s, landing_s = np.interp([first, last], move.frame, move.time_s)
     duration_s = landing_s - take_off_s
-    own_apex_m = float(_over_line_m(body_m, first, last).max())
+    own_apex_m = flown.apex_m
     rise_m = None if height is None else height.rise_m(move.start_s, move.end_s)
     apex_m = apex_for(rise_m, duration_s, own_apex_m)
-    pace_hz = (last - first) / duration_s
-    # Of the clip on the ground: before take-off and after landing, not across.
-    leaving = pace_hz * _slope(body_m[max(first - 2, 0) : first + 1])
-    landing = -pace_hz * _slope(body_m[last : last + 3][::-1])
+    # Of the clip on the ground, at the pace there: before take-off and after landing, not across.
+    before_s, after_s = take_off_s - PACE_S, landing_s + PACE_S
+    before, off, on, after = move.frame_at(np.array([before_s, take_off_s, landing_s, after_s]))
+    leaving = (off - before) / PACE_S * _slope(body_m[max(first - 2, 0) : first + 1])
+    landing = (on - after) / PACE_S * _slope(body_m[last : last + 3][::-1])
     mean = (body_m[last] - body_m[first]) / duration_s
     return Flight(
         move=move,

@@ -62,6 +62,17 @@ class Airborne:
     last: int
     body_m: FloatArray
 
+    @property
+    def over_line_m(self) -> FloatArray:
+        """How high the body is over the line from take-off to landing, in each frame between."""
+        flown = self.body_m[self.first : self.last + 1]
+        return np.asarray(flown - np.linspace(flown[0], flown[-1], len(flown)))
+
+    @property
+    def apex_m(self) -> float:
+        """How far the body rises over that line."""
+        return float(self.over_line_m.max())
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Move(Generic[PlayedT]):
@@ -93,9 +104,19 @@ class Move(Generic[PlayedT]):
 
     @property
     def room_s(self) -> float:
-        """How long a transition into or out of the move may take: a third of a phrase."""
+        """How long a transition into or out of the move may take: a third of a phrase, or as
+        long as it waits in its first pose.
+        """
         duration_s = self.end_s - self.start_s
-        return duration_s if self.idles else duration_s / 3.0
+        if self.idles:
+            return duration_s
+        return max(duration_s / 3.0, self.waits_s)
+
+    @property
+    def waits_s(self) -> float:
+        """How long it stays in its first pose."""
+        first = int(np.searchsorted(self.frame, self.frame[0], side="right")) - 1
+        return float(self.time_s[first] - self.time_s[0])
 
     @property
     def end(self) -> Placement:

@@ -140,7 +140,8 @@ def _joined(
         own_poses(before, at_s + np.array([-_STEP_S, 0.0]), idling),
         own_poses(move, at_s + np.array([0.0, _STEP_S]), idling),
     )
-    over_s = min(transition_s(*ends), move.start_s - at_s + move.room_s)
+    over_s = max(transition_s(*ends), move.waits_s)
+    over_s = min(over_s, move.start_s - at_s + move.room_s)
     count = int(np.searchsorted(now_s, at_s + over_s))
     if count == 0:
         return poses

@@ -20,13 +20,23 @@ RESTING_M_S = 0.1
 
 
 def standing(
-    clip: Clip, legs: Sequence[Leg], feet: Sequence[int] | None = None
+    clip: Clip,
+    legs: Sequence[Leg],
+    feet: Sequence[int] | None = None,
+    world: tuple[FloatArray, FloatArray] | None = None,
 ) -> dict[int, BoolArray]:
     """Return when each foot stands ``(n,)``, by its joint.
 
     It stands when the clip labels it or a joint below it as a contact. It also stands next to such
     frames, where its heel or its ball rests on the ground: clips label soles and toes, but a step
     begins on the heel.
+
+    Parameters
+    ----------
+    feet
+        Joints; by default `feet_of` the clip.
+    world
+        Rotation ``(n, legs, 4)`` and place ``(n, legs, 3)`` of the legs' feet, where known.
     """
     feet = feet_of(clip) if feet is None else feet
     labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet}
@@ -36,10 +46,13 @@ def standing(
             foot = int(clip.skeleton.parents[foot])
         if foot >= 0:  # no foot: a hand
             labelled[foot] |= touches
-    legs = [leg for leg in legs if leg.foot in labelled and labelled[leg.foot].any()]
-    local = clip.rotation_xyzw, clip.translation_m
-    foot_q, ankle = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+    if world is None:
+        local = clip.rotation_xyzw, clip.translation_m
+        world = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+    foot_q, ankle = world
     for i, leg in enumerate(legs):
+        if leg.foot not in labelled or not labelled[leg.foot].any():
+            continue
         labelled[leg.foot] |= _rests(clip, leg, foot_q[:, i], ankle[:, i])
     return labelled
 

@@ -115,7 +115,7 @@ def test_a_jump_is_as_high_as_drawn_and_its_feet_fly_as_long_as_its_body(
     library, name, lasting_s, rise_m
 ):
     recording, score = hop(name, lasting_s, rise_m)
-    (actor,) = animate(score, recording, library, rate_hz=RATE_HZ).actors
+    (actor,) = animate(score, recording, library, rate_hz=RATE_HZ, timing="drawn").actors
     skeleton, clip = library.character.skeleton, library.clip(name)
     legs, hips = legs_of(skeleton, feet_of(clip)), skeleton.index("hips")
     stage = scene_scale(recording, library.character.height_m, score.figure_height_m)
