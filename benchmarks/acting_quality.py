@@ -26,9 +26,9 @@ from smd.score import Score
 from smd.smoothing import smooth
 from smd.transfer.pacing import core_frame
 from smd.transfer.path import GroundPath, ground_path
-from smd.transfer.perform import entrances, kept_apart
 from smd.transfer.repertoire import Piece
 from smd.transfer.scene import scene_scale
+from smd.transfer.staging import entrances, kept_apart
 
 LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
 """NVIDIA kimodo's: toes below the first height are taken to touch, above the speed to skate."""

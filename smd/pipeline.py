@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from smd.cast import ActionLibrary, Cast
     from smd.doodle import Recording
     from smd.score import Score
+    from smd.transfer.limits import Limits
 
 
 def parse(
@@ -74,6 +75,9 @@ def animate(
     rate_hz: float = 24.0,
     expressiveness: float = 1.0,
     heading: str = "prop",
+    timing: str = "feasible",
+    stretch: float | str = 1.0,
+    limits: Limits | None = None,
     ground: Terrain | Path | str | None = None,
 ) -> Performance:
     """Act out a Score: each device a character, each phrase an action on the doodle's path.
@@ -93,6 +97,10 @@ def animate(
         How much of the Score's Effort is played, from 0 (neutral clips) to 2.
     heading
         What characters face by: "prop", where the prop faces, or "path", where it goes.
+    timing
+        When phrases are played: "drawn", as in the Score, or "feasible", as a body can.
+    limits
+        What a body can; by default a person.
     ground
         What they go on: a USD file of meshes, or a terrain; by default the level ground.
 
@@ -117,5 +125,8 @@ def animate(
         rate_hz=rate_hz,
         expressiveness=expressiveness,
         heading=heading,
+        timing=timing,
+        stretch=stretch,
+        limits=limits,
         terrain=read_terrain(ground) if isinstance(ground, str | Path) else ground,
     )

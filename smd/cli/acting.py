@@ -29,6 +29,13 @@ class HeadingName(StrEnum):
     PATH = "path"
 
 
+class TimingName(StrEnum):
+    """When phrases are played."""
+
+    FEASIBLE = "feasible"
+    DRAWN = "drawn"
+
+
 @dataclass(frozen=True, slots=True)
 class ActingOptions:
     """How the user said that Scores are to be acted out."""
@@ -46,6 +53,21 @@ class ActingOptions:
         HeadingName,
         typer.Option(help="What characters face by: prop, where it faces, or path, where it goes."),
     ] = HeadingName.PROP
+    timing: Annotated[
+        TimingName,
+        typer.Option(
+            help="When phrases are played: feasible, as a body can, with the pauses beside them; "
+            "or drawn, as in the Score."
+        ),
+    ] = TimingName.FEASIBLE
+    stretch: Annotated[
+        str,
+        typer.Option(
+            metavar="K|auto",
+            help="How many times as long as the recording the animation lasts; auto: as long as "
+            "most phrases need.",
+        ),
+    ] = "1"
     ground: Annotated[
         Path | None,
         typer.Option(
@@ -74,7 +96,17 @@ class ActingOptions:
                 rate_hz=self.fps,
                 expressiveness=expressiveness,
                 heading=self.heading,
+                timing=self.timing,
+                stretch=self.stretch,
                 ground=terrain,
             )
 
         return act
+
+
+def said_about(performance: Performance) -> list[str]:
+    """Return what a person is told about a performance: what its plan changed, and warnings."""
+    from smd.transfer.plan_report import plan_summary
+
+    planned = plan_summary(performance.source["plan"])
+    return [*([planned] if planned else []), *performance.warnings]

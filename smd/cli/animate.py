@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from smd.cli import score_lines
-from smd.cli.acting import ActingOptions
+from smd.cli.acting import ActingOptions, said_about
 from smd.cli.libraries import Libraries, LibraryFolders
 from smd.cli.option_groups import unfolded
 from smd.cli.reading import ReadingOptions
@@ -46,4 +46,4 @@ def animate(
     act = acting.acts_out(score, take, cast, acting.terrain())
     performance = writing.write(score, act, acting.expressiveness, output)
     said = f"{output}: {score_lines.summary(take, score)}"
-    typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))
+    typer.echo("\n".join([said, *(f"  {line}" for line in said_about(performance))]))

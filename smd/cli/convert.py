@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from smd.cli import places, score_lines
-from smd.cli.acting import ActingOptions
+from smd.cli.acting import ActingOptions, said_about
 from smd.cli.batch import for_each, targets
 from smd.cli.next_steps import next_steps
 from smd.cli.option_groups import unfolded
@@ -51,7 +51,7 @@ def convert(
         act = acting.acts_out(score, recording, cast, terrain)
         performance = writing.write(score, act, acting.expressiveness, outputs[index])
         said = f"{outputs[index]}: {score_lines.summary(recording, score)}"
-        typer.echo("\n".join([said, *(f"  {line}" for line in performance.warnings)]))
+        typer.echo("\n".join([said, *(f"  {line}" for line in said_about(performance))]))
         for line in next_steps(
             file, recording, score, cast, options=reading, tolerance=parsing.tolerance
         ):

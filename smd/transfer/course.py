@@ -11,11 +11,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from smd.acting.move import Move, Placement, nearest_turn
 from smd.cast import IDLE
+from smd.geometry.easing import smootherstep
 from smd.score import Phrase
+from smd.transfer.body_time import body_pacing
 from smd.transfer.gait import phase_after
-from smd.transfer.in_place import Facing, facing, gesture, idling, turn, turn_passes, turns
+from smd.transfer.in_place import (
+    Facing,
+    facing,
+    gesture,
+    idling,
+    turn,
+    turn_passes,
+    turns,
+    whole_cycles,
+)
+from smd.transfer.pacing import Pacing, paced
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece, Repertoire
 from smd.transfer.timeline import Span
@@ -56,15 +70,17 @@ def course(
             moves.append(move)
             if rises_s < span.end_s:
                 leaving = pieces.pieces[pieces.leaving[rest]]
-                moves.append(gesture(leaving, rises_s, span.end_s, move.end))
+                pacing = paced(leaving.clip, leaving.near, rises_s, span.end_s, 0.0)
+                moves.append(gesture(leaving, pacing, move.end))
                 rest = IDLE
         else:
-            before = moves[-1] if i > 0 and _goes_on(cast[i - 1], piece) else None
-            into_gait = not last and _goes_on(piece, cast[i + 1])
+            before = moves[-1] if i > 0 and goes_on(cast[i - 1], piece) else None
+            into_gait = not last and goes_on(piece, cast[i + 1])
             assert span.phrase is not None
             rest = pieces.rest_after(span.phrase.action)
             pause_s = _pause_s(spans[i + 1 : i + 3], rest, pieces)
-            moves += _acted(piece, span, pause_s, path, at, before, into_gait=into_gait)
+            acted = _acted(piece, span, pause_s, path, at, before, into_gait=into_gait)
+            moves += [_turning(acted[0], at.heading_rad, span.turning_rad_s), *acted[1:]]
         at = moves[-1].end
     return tuple(moves)
 
@@ -99,7 +115,7 @@ def _rising_s(span: Span, rest: str, following: Phrase | None, pieces: Repertoir
     return span.end_s - min(wanted_s, (span.end_s - span.start_s) * 2.0 / 3.0)
 
 
-def _goes_on(before: Piece | None, after: Piece | None) -> bool:
+def goes_on(before: Piece | None, after: Piece | None) -> bool:
     """Return whether one piece follows the path after another without coming to rest."""
     if before is None or after is None or before.gait is None or after.gait is None:
         return False
@@ -143,18 +159,43 @@ def _acted(
             phase=phase,
             from_gait=before is not None,
             into_gait=into_gait,
+            standing_s=span.standing_s,
         )
         return [move]
     if piece.travels:
-        return [leap(piece, path, start_s, end_s, at, pause_s=pause_s)]
+        pacing = _pacing(piece, span, start_s, end_s, pause_s)
+        return [leap(piece, path, pacing, end_s, at, run_up_s=span.run_up_s)]
     at = Placement(at.position_m, nearest_turn(float(path.heading_at(start_s)), at.heading_rad))
     if not turns(piece):
-        return [gesture(piece, start_s, end_s, at, pause_s=pause_s)]
+        return [gesture(piece, _pacing(piece, span, start_s, end_s, pause_s), at)]
     passes = turn_passes(piece, float(path.heading_at(end_s) - path.heading_at(start_s)))
+    if len(passes) == 1:
+        return [turn(piece, _pacing(piece, span, start_s, end_s, pause_s), at, passes[0])]
     edges = [start_s + (end_s - start_s) * i / len(passes) for i in range(len(passes) + 1)]
     moves: list[Move[Piece]] = []
     for first_s, last_s, turn_rad in zip(edges[:-1], edges[1:], passes, strict=True):
         after_s = pause_s if last_s == edges[-1] else 0.0
-        moves.append(turn(piece, first_s, last_s, at, turn_rad, pause_s=after_s))
+        pacing = paced(piece.clip, piece.near, first_s, last_s, after_s)
+        moves.append(turn(piece, pacing, at, turn_rad))
         at = moves[-1].end
     return moves
+
+
+def _turning(move: Move[Piece], from_rad: float, speed_rad_s: float) -> Move[Piece]:
+    """Return a move that begins in another heading, and turns to its own in its first half."""
+    off_rad = from_rad - nearest_turn(float(move.heading_rad[0]), from_rad)
+    if np.isinf(speed_rad_s) or abs(off_rad) < 1e-6:
+        return move
+    over_s = min(abs(off_rad) / speed_rad_s, 0.5 * (move.end_s - move.start_s))
+    left = 1.0 - smootherstep((move.time_s - move.start_s) / over_s)
+    return replace(move, heading_rad=move.heading_rad + off_rad * left)
+
+
+def _pacing(piece: Piece, span: Span, start_s: float, end_s: float, pause_s: float) -> Pacing:
+    """Return when each frame of a phrase's clip is shown, as planned where it is."""
+    if piece.clip.cyclic:
+        return whole_cycles(piece, start_s, end_s)
+    if span.planned is None:
+        return paced(piece.clip, piece.near, start_s, end_s, pause_s)
+    body_time, strike_s = span.planned
+    return body_pacing(body_time, start_s, strike_s, end_s, pause_s)

@@ -10,7 +10,7 @@ import numpy as np
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
 from smd.transfer.path import GroundPath
-from smd.transfer.repertoire import Piece, Repertoire
+from smd.transfer.repertoire import Repertoire
 from smd.transfer.timeline import Span
 
 STILL_M_S = 0.25
@@ -22,9 +22,6 @@ half a turn takes 0.4 s and goes at most at 8.4 rad/s."""
 
 TURNING_S = 0.6
 """Time in which a standing performer turns to the path's next direction, before moving on."""
-
-NO_WAY_M = 0.05
-"""Travel of a clip below which it has no direction of its own."""
 
 
 def by_prop(path: GroundPath, spans: Sequence[Span], pieces: Repertoire) -> GroundPath:
@@ -47,7 +44,7 @@ def by_path(path: GroundPath, spans: Sequence[Span], pieces: Repertoire) -> Grou
         if piece.travels:
             inside = (path.time_s >= span.start_s) & (path.time_s <= span.end_s)
             goes |= inside & moves
-            own_rad[inside] = own_direction_rad(piece)
+            own_rad[inside] = piece.direction_rad
     heading = held(path.time_s, tangent - own_rad, goes, first_rad=float(path.heading_rad[0]))
     return replace(path, heading_rad=heading)
 
@@ -96,9 +93,3 @@ def held(
     heading = np.where(known, left, left + share * (right - left))
     rate_hz = (len(time_s) - 1) / max(time_s[-1] - time_s[0], 1e-9)
     return gaussian_smoothed(heading, TANGENT_SIGMA_S * rate_hz)
-
-
-def own_direction_rad(piece: Piece) -> float:
-    """Return the direction in which a clip travels from its own heading, positive to the left."""
-    left, ahead = piece.root.position_m[-1]
-    return float(np.arctan2(left, ahead)) if np.hypot(left, ahead) > NO_WAY_M else 0.0

@@ -31,6 +31,9 @@ References
 .. [1] M. Čoh et al., "Kinematics of Usain Bolt's Maximal Sprint Velocity", Kinesiology 50, 2018.
 """
 
+SPARE = 0.85
+"""Share of a gait's greatest speed that is planned for: its steps are whole."""
+
 HALF_CYCLE_TOLERANCE = 0.05
 """How far from half a cycle apart two passings may be and still halve it."""
 
@@ -124,6 +127,20 @@ def gait_of(clip: Clip, stands: Mapping[int, BoolArray]) -> Gait:
     passings = [Passing(phase, foot) for foot, on in stands.items() for phase in _middles(~on[:-1])]
     flies = bool(passings) and not np.any(list(stands.values()), axis=0).all()
     return Gait(clip.travel_m, clip.duration_s, tuple(sorted(passings)), flies)
+
+
+def fastest_m_s(gait: Gait) -> float:
+    """Return the greatest speed of a gait: its most steps a minute, its longest stride."""
+    if not gait.passings:
+        return np.inf
+    steps_hz = gait.most_steps_per_min / 60.0
+    return steps_hz / len(gait.passings) * LONGEST_STRIDE * gait.stride_m
+
+
+def planned_m_s(gait: Gait, walking_m_s: float) -> float:
+    """Return the speed of a gait that is planned for; of one that does not run, up to another."""
+    most = SPARE * fastest_m_s(gait)
+    return most if gait.flies or not gait.passings else min(most, walking_m_s)
 
 
 def phase_after(before: Gait, phase: float, after: Gait) -> float | None:

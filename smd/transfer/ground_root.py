@@ -10,7 +10,7 @@ from smd.character.clip import STAGES, Clip
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import heading_rad
 
-_EXECUTION = STAGES.index("execution")
+EXECUTION = STAGES.index("execution")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,7 +66,7 @@ def executed(clip: Clip, root: GroundRoot) -> FloatArray:
     .. [1] M. Garcia, R. Ronfard, M.-P. Cani, "Spatial Motion Doodles", MIG 2019, section 6.2.
     """
     n = len(clip)
-    start, end = clip.stage_end_frames[_EXECUTION - 1], clip.stage_end_frames[_EXECUTION]
+    start, end = clip.stage_end_frames[EXECUTION - 1], clip.stage_end_frames[EXECUTION]
     if end <= start:
         start, end = 0, n - 1
     steps = np.linalg.norm(np.diff(root.position_m, axis=0), axis=-1)

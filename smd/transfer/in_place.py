@@ -10,7 +10,7 @@ from smd.acting.move import Move, Placement, knots
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import smootherstep
 from smd.transfer.ground_root import turned
-from smd.transfer.pacing import Pacing, paced
+from smd.transfer.pacing import Pacing
 from smd.transfer.repertoire import Piece
 
 TURNING_RAD = np.radians(15.0)
@@ -82,31 +82,21 @@ def idling(
     )
 
 
-def gesture(
-    piece: Piece, start_s: float, end_s: float, at: Placement, *, pause_s: float = 0.0
-) -> Move[Piece]:
-    """Play a clip in place, once, or for as many cycles as its own duration allows.
+def whole_cycles(piece: Piece, start_s: float, end_s: float) -> Pacing:
+    """Return when each frame of a cycle is shown: as many of them as its own duration allows."""
+    cycles = max(round((end_s - start_s) / piece.clip.duration_s), 1)
+    return Pacing(np.array([start_s, end_s]), np.array([0.0, cycles * piece.last_frame]))
 
-    The heading is held. A step that the clip itself takes is kept.
 
-    Parameters
-    ----------
-    pause_s
-        How long nothing is performed afterwards: what is played once may come back in it.
-    """
-    if piece.clip.cyclic:
-        cycles = max(round((end_s - start_s) / piece.clip.duration_s), 1)
-        whole = np.array([0.0, cycles * piece.last_frame])
-        pacing = Pacing(np.array([start_s, end_s]), whole)
-    else:
-        pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
-    time_s = knots(start_s, pacing.end_s)
+def gesture(piece: Piece, pacing: Pacing, at: Placement) -> Move[Piece]:
+    """Play a clip in place. The heading is held; a step that the clip itself takes is kept."""
+    time_s = knots(pacing.start_s, pacing.end_s)
     frame = pacing.frame_at(time_s)
     own_frame = np.mod(frame, piece.last_frame) if piece.clip.cyclic else frame
     step = turned(piece.root.position_at(own_frame), at.heading_rad)
     return Move(
         piece=piece,
-        start_s=start_s,
+        start_s=pacing.start_s,
         end_s=pacing.end_s,
         time_s=time_s,
         root_m=at.position_m + step,
@@ -135,22 +125,13 @@ def turn_passes(piece: Piece, prop_turn_rad: float) -> tuple[float, ...]:
     return (whole_rad / passes,) * passes
 
 
-def turn(
-    piece: Piece,
-    start_s: float,
-    end_s: float,
-    at: Placement,
-    turn_rad: float,
-    *,
-    pause_s: float = 0.0,
-) -> Move[Piece]:
-    """Turn by an angle, along the clip's own heading curve; `pause_s` as in `gesture`."""
-    pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
-    time_s = knots(start_s, pacing.end_s)
+def turn(piece: Piece, pacing: Pacing, at: Placement, turn_rad: float) -> Move[Piece]:
+    """Turn by an angle, along the clip's own heading curve."""
+    time_s = knots(pacing.start_s, pacing.end_s)
     frame = pacing.frame_at(time_s)
     return Move(
         piece=piece,
-        start_s=start_s,
+        start_s=pacing.start_s,
         end_s=pacing.end_s,
         time_s=time_s,
         root_m=at.position_m + turned(piece.root.position_at(frame), at.heading_rad),

@@ -45,6 +45,11 @@ class Pacing:
     frame: FloatArray
 
     @property
+    def start_s(self) -> float:
+        """When its first frame is shown."""
+        return float(self.time_s[0])
+
+    @property
     def end_s(self) -> float:
         """When the clip is left."""
         return float(self.time_s[-1])
@@ -60,6 +65,11 @@ class Pacing:
 def core_frame(clip: Clip) -> int:
     """Return the last frame of a clip's follow-through: there its transition begins."""
     return int(clip.stage_end_frames[_FOLLOW_THROUGH])
+
+
+def struck_frame(clip: Clip) -> int:
+    """Return the last frame of a clip's execution."""
+    return int(clip.stage_end_frames[_EXECUTION])
 
 
 def near_share(clip: Clip, position_m: FloatArray) -> float:
@@ -98,7 +108,7 @@ def paced(clip: Clip, near: float, start_s: float, end_s: float, pause_s: float)
         How long nothing is performed after the phrase.
     """
     lasting_s, last = end_s - start_s, len(clip) - 1
-    struck, core = int(clip.stage_end_frames[_EXECUTION]), core_frame(clip)
+    struck, core = struck_frame(clip), core_frame(clip)
     if clip.duration_s <= lasting_s or struck == last:
         return Pacing(np.array([start_s, end_s]), np.array([0.0, last]))
     struck_s = lasting_s * struck / last

@@ -3,34 +3,32 @@
 from __future__ import annotations
 
 import difflib
-import itertools
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from smd.acting.act import Frames, act
-from smd.acting.company import apart, encounters
-from smd.acting.move import Move
-from smd.acting.moving import Idling
-from smd.acting.performance import Performance
+from smd.acting.company import encounters
+from smd.acting.performance import Actor, Performance
 from smd.acting.terrain import Terrain
 from smd.cast import ActionLibrary, Cast, cast_of
-from smd.doodle import Doodle, Recording
+from smd.doodle import Recording
 from smd.errors import ScoreError, TransferError
-from smd.geometry.arrays import FloatArray
-from smd.score import Part, Phrase, Score
+from smd.score import Part, Score
 from smd.score_file import score_to_json
-from smd.transfer.course import course
 from smd.transfer.demands import demands
 from smd.transfer.facing import HEADINGS
-from smd.transfer.path import ground_path
-from smd.transfer.repertoire import Piece, Repertoire, repertoire
-from smd.transfer.scene import SceneScale, scene_scale
-from smd.transfer.timeline import timeline
+from smd.transfer.limits import Limits
+from smd.transfer.plan import DRAWN, TIMINGS
+from smd.transfer.plan_report import hurried, plan_to_json, unmet
+from smd.transfer.staging import Staged, entrances, heights_m, kept_apart
+from smd.transfer.stretch import AUTO, factors, stretched
 
 RATE_HZ = 24.0
 """Frames per second: film's, and what Blender's importer leaves its scene at."""
+
+MOST_HURRIED = 0.05
+"""Share of phrases without enough time up to which a take is not stretched any further."""
 
 BEYOND_S = 0.05
 """How far a phrase may reach beyond its device's samples: hand-written times are rounded."""
@@ -45,6 +43,9 @@ def perform(
     expressiveness: float = 1.0,
     heading: str = "prop",
     terrain: Terrain | None = None,
+    timing: str = "feasible",
+    stretch: float | str = 1.0,
+    limits: Limits | None = None,
 ) -> Performance:
     """Act out a Score.
 
@@ -64,6 +65,13 @@ def perform(
         What performers face by, "prop" or "path".
     terrain
         What they go on; by default the level ground.
+    timing
+        When phrases are played: "drawn", as in the Score, or "feasible", as a body can.
+    stretch
+        How many times as long as the recording the performance lasts; "auto" for as long as most
+        phrases need.
+    limits
+        What a body can, where that is asked for; by default a person's.
 
     Returns
     -------
@@ -79,8 +87,8 @@ def perform(
         If a cast has a library for a device that is not in the recording.
     TransferError
         If ``rate_hz`` is not positive and finite, ``expressiveness`` is not within 0 and 2,
-        ``heading`` is neither, the Score has no performers, or there is no ground or more than
-        one below a performer's way.
+        ``heading`` or ``timing`` is neither, ``stretch`` is no number from 0.1 to 20, the Score has
+        no performers, or there is no ground or more than one below a performer's way.
     """
     if not 0.0 <= expressiveness <= 2.0:
         raise TransferError(f"expressiveness: expected 0 to 2, got {expressiveness!r}")
@@ -88,54 +96,70 @@ def perform(
         raise TransferError(f"rate_hz: expected a positive number, got {rate_hz!r}")
     if heading not in HEADINGS:
         raise TransferError(f"heading: expected {' or '.join(HEADINGS)}, got {heading!r}")
+    if timing not in TIMINGS:
+        raise TransferError(f"timing: expected {' or '.join(TIMINGS)}, got {timing!r}")
+    if stretch == AUTO and timing == DRAWN:
+        raise TransferError("stretch: expected a number with the timing 'drawn', got 'auto'")
     if not score.performers:
         raise TransferError("score: expected at least one performer, got none")
     cast = cast_of(library)
     cast.check(recording.devices)
     for part in score.performers:
         check_part(part, recording, cast.of(part.device))
+    for factor in factors(stretch):
+        take = stretched(score, recording, factor)
+        frames = frames_of(take[1], rate_hz)
+        alone = entrances(
+            *take,
+            cast,
+            frames.time_s,
+            expressiveness=expressiveness,
+            heading=heading,
+            timing=timing,
+            limits=limits,
+        )
+        if hurried([one.plan for one in alone]) <= MOST_HURRIED:
+            break
+    staged = kept_apart(alone, cast)
+    actors = tuple(acted(one, cast, frames, terrain) for one in staged)
+    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    asked += [line for one in staged for line in unmet(one.part.device, one.plan)]
+    devices = [part.device for part in score.performers]
+    before, after = ([one.moves for one in performers] for performers in (alone, staged))
+    asked += encounters(devices, before, after, heights_m(devices, cast))
+    # A Score may come from an earlier performance, and have its warnings already.
+    warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
+    plans = {one.part.device: one.plan for one in alone}
+    source = {
+        "score": score_to_json(replace(score, warnings=warnings)),
+        "plan": plan_to_json(plans, timing=timing, stretch=factor),
+    }
+    return Performance(rate_hz, frames.start_s, actors, terrain, warnings, source)
+
+
+def frames_of(recording: Recording, rate_hz: float) -> Frames:
+    """Return the frames from a recording's first sample to its last."""
     start_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
     end_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
     # + 1e-6: a duration of whole frames may come out a hair short.
-    count = int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1
-    frames = Frames(start_s, rate_hz, count)
-    alone = entrances(
-        score, recording, cast, frames.time_s, expressiveness=expressiveness, heading=heading
-    )
-    staged = kept_apart(alone, cast)
-    actors = tuple(
-        act(
-            one.part.device,
-            cast.of(one.part.device).character,
-            one.moves,
-            one.idling,
-            one.pieces.legs,
-            frames,
-            phrases=one.part.phrases,
-            doodles=one.doodles,
-            terrain=terrain,
-        )
-        for one in staged
-    )
-    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
-    devices = [part.device for part in score.performers]
-    before, after = ([one.moves for one in performers] for performers in (alone, staged))
-    asked += encounters(devices, before, after, _heights_m(devices, cast))
-    # A Score may come from an earlier performance, and have its warnings already.
-    warnings = tuple(dict.fromkeys([*score.warnings, *asked]))
-    source = {"score": score_to_json(replace(score, warnings=warnings))}
-    return Performance(rate_hz, start_s, actors, terrain, warnings, source)
+    return Frames(start_s, rate_hz, int(np.floor((end_s - start_s) * rate_hz + 1e-6)) + 1)
 
 
-def repertoires(score: Score, cast: Cast, expressiveness: float) -> dict[ActionLibrary, Repertoire]:
-    """Return what can be performed with each library of a cast, in this Score."""
-    phrases: dict[ActionLibrary, list[Phrase]] = {}
-    for part in score.performers:
-        phrases.setdefault(cast.of(part.device), []).extend(part.phrases)
-    return {
-        library: repertoire(library, spoken, expressiveness=expressiveness)
-        for library, spoken in phrases.items()
-    }
+def acted(one: Staged, cast: Cast, frames: Frames, terrain: Terrain | None) -> Actor:
+    """Return a performer as an actor."""
+    character = cast.of(one.part.device).character
+    return act(
+        one.part.device,
+        character,
+        one.moves,
+        one.idling,
+        one.pieces.legs,
+        frames,
+        phrases=[planned.phrase for planned in one.plan.phrases],
+        doodles=one.doodles,
+        terrain=terrain,
+        mass=one.pieces.mass,
+    )
 
 
 def check_part(part: Part, recording: Recording, library: ActionLibrary) -> None:
@@ -161,80 +185,3 @@ def check_part(part: Part, recording: Recording, library: ActionLibrary) -> None
                 f"{place}: expected times within the device's {first_s:.3f} to {last_s:.3f} s, "
                 f"found {phrase.action!r} from {phrase.start_s:.3f} to {phrase.end_s:.3f} s"
             )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Staged:
-    """A performer with its moves.
-
-    Attributes
-    ----------
-    part : what it performs.
-    doodles : at the scene's scale.
-    pieces : what it can do.
-    moves : one after the other, from the first frame to the last.
-    idling : what it does in between.
-    """
-
-    part: Part
-    doodles: tuple[Doodle, ...]
-    pieces: Repertoire
-    moves: tuple[Move[Piece], ...]
-    idling: Idling
-
-
-def entrances(
-    score: Score,
-    recording: Recording,
-    cast: Cast,
-    time_s: FloatArray,
-    *,
-    expressiveness: float,
-    heading: str,
-) -> list[Staged]:
-    """Return the moves of each performer, as if alone, from the first of some times to the last.
-
-    Parameters are those of `perform`.
-    """
-    scene = scene_scale(recording, cast.shared.character.height_m, score.figure_height_m)
-    pieces = repertoires(score, cast, expressiveness)
-    return [
-        enter(part, recording, scene, pieces[cast.of(part.device)], time_s, ahead, heading)
-        for part, ahead in zip(score.performers, _idling_ahead(), strict=False)
-    ]
-
-
-def kept_apart(alone: Sequence[Staged], cast: Cast) -> list[Staged]:
-    """Return performers whose paths keep a least distance from each other."""
-    heights_m = _heights_m([one.part.device for one in alone], cast)
-    together = apart([one.moves for one in alone], heights_m)
-    return [replace(one, moves=moves) for one, moves in zip(alone, together, strict=True)]
-
-
-def _heights_m(devices: Sequence[str], cast: Cast) -> list[float]:
-    return [cast.of(device).character.height_m for device in devices]
-
-
-def enter(
-    part: Part,
-    recording: Recording,
-    scene: SceneScale,
-    pieces: Repertoire,
-    time_s: FloatArray,
-    idling_ahead: float,
-    heading: str,
-) -> Staged:
-    """Return the moves of a performer, ``idling_ahead`` of a cycle ahead in its idle clip."""
-    clock_s = float(time_s[0]) - idling_ahead * pieces.idle.clip.duration_s
-    spans = timeline(part, float(time_s[0]), float(time_s[-1]))
-    path = HEADINGS[heading](ground_path(recording.of(part.device), scene), spans, pieces)
-    moves = course(spans, path, pieces, clock_s=clock_s)
-    doodles = tuple(scene.placed_doodle(doodle) for doodle in recording.of(part.device))
-    idling = Idling(pieces.idle, pieces.idle.clip.rate_hz, clock_s)
-    return Staged(part, doodles, pieces, moves, idling)
-
-
-def _idling_ahead() -> Iterator[float]:
-    """Return how far ahead each performer is in its idle clip, so that no two move in step."""
-    golden = 0.5 * (5.0**0.5 - 1.0)  # multiples of it never come near each other
-    return (golden * i % 1.0 for i in itertools.count())

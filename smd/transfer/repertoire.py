@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -16,15 +16,26 @@ from smd.acting.standing import standing
 from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.mass import Mass
 from smd.character.poses import Poses, sampled
 from smd.expression.body import body_of
 from smd.expression.expressive import expressive
 from smd.expression.study import Study, study_of
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
-from smd.transfer.gait import Gait, gait_of
+from smd.transfer.body_work import BodyWork, body_work
+from smd.transfer.gait import Gait, fastest_m_s, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.pacing import near_share
+
+NO_WAY_M = 0.05
+"""Travel of a clip below which it has no direction of its own."""
+
+ACROSS = np.cos(np.radians(45.0))
+"""Cosine of the angle from which two gaits go in different directions of the body."""
+
+UPRIGHT = 0.95
+"""Least height of the centre of mass of an upright gait, as a share of the idle one."""
 
 SAME_POSE = 0.999
 """Cosine of half the angle up to which two rotations of a joint count as equal: 5 degrees."""
@@ -45,6 +56,7 @@ class Piece:
     gait : what it does per cycle, if it steps along the path.
     near : share of its transition after which its pose is near to its last one.
     airborne : the part of it that flies, if it plays once and one does.
+    body : what it asks of the body's mass, where that counts.
     """
 
     clip: Clip
@@ -56,6 +68,13 @@ class Piece:
     gait: Gait | None
     near: float
     airborne: Airborne | None
+    body: BodyWork | None
+
+    @property
+    def direction_rad(self) -> float:
+        """Direction in which it travels from its own heading, positive to the left."""
+        left, ahead = self.root.position_m[-1]
+        return float(np.arctan2(left, ahead)) if np.hypot(left, ahead) > NO_WAY_M else 0.0
 
     @property
     def last_frame(self) -> int:
@@ -90,6 +109,8 @@ class Repertoire:
     legs : of the character.
     rests : what is idled in after an action, where that is not idling.
     expressiveness : how much of a phrase's Effort is played; 0 is neutral.
+    faster : by a gait's action, the others with which its way can be gone faster, the likest first.
+    mass : where the body's weight is, where that counts.
     leaving : what leads out of such a rest, by the rest's name: its clip begins as that one does.
     """
 
@@ -98,6 +119,8 @@ class Repertoire:
     rests: Mapping[str, str] = field(default_factory=dict)
     leaving: Mapping[str, str] = field(default_factory=dict)
     expressiveness: float = 0.0
+    faster: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    mass: Mass | None = None
 
     @property
     def idle(self) -> Piece:
@@ -107,6 +130,11 @@ class Repertoire:
     def of(self, phrase: Phrase) -> Piece:
         """Return the piece that a phrase is played with."""
         return self.pieces[piece_name(phrase.action, phrase.effort, self.expressiveness)]
+
+    def like(self, phrase: Phrase) -> Piece:
+        """Return its piece, or the neutral one where its Effort is not prepared."""
+        name = piece_name(phrase.action, phrase.effort, self.expressiveness)
+        return self.pieces.get(name, self.pieces[phrase.action])
 
     def rest_after(self, action: str) -> str:
         """Return the action whose clip is the idle clip after another one."""
@@ -131,9 +159,19 @@ def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
 
 
 def repertoire(
-    library: ActionLibrary, phrases: Iterable[Phrase], *, expressiveness: float
+    library: ActionLibrary,
+    phrases: Iterable[Phrase],
+    *,
+    expressiveness: float,
+    mass: Mass | None = None,
 ) -> Repertoire:
-    """Prepare the clips of some phrases, with their Effort, and the idle clips."""
+    """Prepare the clips of some phrases, with their Effort, and the idle clips.
+
+    Parameters
+    ----------
+    mass
+        Where the body's weight is, if that counts.
+    """
     phrases = list(phrases)
     actions = {phrase.action for phrase in phrases}
     rests = {name: rest for name in actions if (rest := library.action(name).rest)}
@@ -142,21 +180,90 @@ def repertoire(
     clips = [library.clip(name) for name in names]
     legs = legs_of(library.character.skeleton, sorted({f for clip in clips for f in feet_of(clip)}))
     pieces = {
-        name: piece_of(clip, travels=library.action(name).travels, legs=legs)
+        name: piece_of(clip, travels=library.action(name).travels, legs=legs, mass=mass)
         for name, clip in zip(names, clips, strict=True)
     }
-    body = body_of(clips[0])
+    return with_efforts(
+        Repertoire(pieces, legs, rests, leaving, expressiveness, mass=mass), phrases
+    )
+
+
+def with_efforts(known: Repertoire, phrases: Iterable[Phrase]) -> Repertoire:
+    """Return a repertoire in which some phrases have their Effort too."""
+    pieces = dict(known.pieces)
+    body = body_of(known.idle.clip)
     studies: dict[str, Study] = {}
     for phrase in phrases:
-        name = piece_name(phrase.action, phrase.effort, expressiveness)
+        name = piece_name(phrase.action, phrase.effort, known.expressiveness)
         if name not in pieces:
             neutral = pieces[phrase.action]
             if phrase.action not in studies:
                 studies[phrase.action] = study_of(neutral.clip, body)
-            effort = played_effort(phrase.effort, expressiveness)
+            effort = played_effort(phrase.effort, known.expressiveness)
             clip = expressive(studies[phrase.action], effort, travels=neutral.travels)
-            pieces[name] = piece_of(clip, travels=neutral.travels, legs=legs, neutral=neutral)
-    return Repertoire(pieces, legs, rests, leaving, expressiveness)
+            pieces[name] = piece_of(
+                clip, travels=neutral.travels, legs=known.legs, neutral=neutral, mass=known.mass
+            )
+    return replace(known, pieces=pieces)
+
+
+def with_faster(known: Repertoire, library: ActionLibrary) -> Repertoire:
+    """Return a repertoire that knows with which gaits a way can be gone faster.
+
+    A faster gait touches the ground with the same joints: nobody gets up from a crawl to run.
+    """
+    slow = [
+        name for name, piece in known.pieces.items() if _steps(piece) and name == piece.clip.name
+    ]
+    if not slow:
+        return known
+    pieces = dict(known.pieces)
+    for action in library.actions:
+        if action.travels and action.name not in pieces and library.clip(action.name).cyclic:
+            clip = library.clip(action.name)
+            pieces[action.name] = piece_of(clip, travels=True, legs=known.legs, mass=known.mass)
+    gaits = sorted(
+        (fastest_m_s(gait), name)
+        for name, piece in pieces.items()
+        if (gait := _steps(piece)) and piece.clip.name == name
+    )
+    faster = {name: _faster(pieces, gaits, name) for name in slow}
+    return replace(known, pieces=pieces, faster=faster)
+
+
+def _faster(
+    pieces: Mapping[str, Piece], gaits: Sequence[tuple[float, str]], name: str
+) -> tuple[str, ...]:
+    """Return the gaits with which the way of another can be gone faster, the likest first.
+
+    Those in its own direction come before those for which the body turns; for these it goes ahead,
+    and upright.
+    """
+    own = pieces[name]
+    assert own.gait is not None
+    same, ahead = [], []
+    for speed, other in gaits:
+        piece = pieces[other]
+        touching = set(piece.clip.contact_joints) == set(own.clip.contact_joints)
+        if not touching or speed <= fastest_m_s(own.gait):
+            continue
+        if np.cos(piece.direction_rad - own.direction_rad) > ACROSS:
+            same.append(other)
+        elif np.cos(piece.direction_rad) > ACROSS and _upright(piece, pieces[IDLE]):
+            ahead.append(other)
+    return *same, *ahead
+
+
+def _upright(piece: Piece, idle: Piece) -> bool:
+    """Return whether a clip holds the body about as high as idling does."""
+    if piece.body is None or idle.body is None:
+        return True
+    return bool(piece.body.centre_m[:, 1].mean() > UPRIGHT * idle.body.centre_m[:, 1].mean())
+
+
+def _steps(piece: Piece) -> Gait | None:
+    """Return the gait of what steps along a path."""
+    return piece.gait if piece.gait is not None and piece.gait.passings else None
 
 
 def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
@@ -173,7 +280,12 @@ def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
 
 
 def piece_of(
-    clip: Clip, *, travels: bool, legs: Sequence[Leg], neutral: Piece | None = None
+    clip: Clip,
+    *,
+    travels: bool,
+    legs: Sequence[Leg],
+    neutral: Piece | None = None,
+    mass: Mass | None = None,
 ) -> Piece:
     """Prepare one clip.
 
@@ -181,14 +293,23 @@ def piece_of(
     ----------
     neutral
         What the clip is an expression of: the same feet touch in both.
+    mass
+        Where the body's weight is, if what a clip asks of it is to be known.
     """
-    stands = standing(clip, legs, None if neutral is None else neutral.touching)
-    gait = gait_of(clip, stands) if travels and clip.cyclic else None
     local = clip.rotation_xyzw, clip.translation_m
-    foot_q, _ = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
+    feet, weighing = [leg.foot for leg in legs], [] if mass is None else mass.joints.tolist()
+    holds_legs = pelvis_of(clip.skeleton, legs) or 0
+    world_q, place_m = joints_in_world(clip.skeleton, [*feet, holds_legs, *weighing], *local)
+    foot_q, foot_m = world_q[:, : len(feet)], place_m[:, : len(feet)]
+    touching = None if neutral is None else neutral.touching
+    stands = standing(clip, legs, touching, (foot_q, foot_m))
+    gait = gait_of(clip, stands) if travels and clip.cyclic else None
     never = np.zeros(len(clip), dtype=bool)
     columns = [stands.get(leg.foot, never) for leg in legs]
     yaw = [yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)]
+    body = None
+    if mass is not None:
+        body = body_work(clip, mass.mean_m(place_m[:, len(feet) + 1 :]), travels=travels)
     if neutral is not None:
         near = neutral.near
     else:
@@ -202,16 +323,20 @@ def piece_of(
         touching=tuple(stands),
         gait=gait,
         near=near,
-        airborne=_airborne(clip, stands, legs),
+        airborne=_airborne(clip, stands, place_m[:, len(feet), 1]),
+        body=body,
     )
 
 
-def _airborne(clip: Clip, stands: Mapping[int, BoolArray], legs: Sequence[Leg]) -> Airborne | None:
-    """Return the flight of a clip that plays once, if it has one."""
+def _airborne(clip: Clip, stands: Mapping[int, BoolArray], body_m: FloatArray) -> Airborne | None:
+    """Return the flight of a clip that plays once, if it has one.
+
+    Parameters
+    ----------
+    body_m
+        ``(n,)`` height of the joint that holds the legs.
+    """
     if clip.cyclic or len(clip) < 3:
         return None
-    body = pelvis_of(clip.skeleton, legs) or 0
-    local = clip.rotation_xyzw, clip.translation_m
-    _, place_m = joints_in_world(clip.skeleton, [body], *local)
     touches = np.any([clip.contacts.any(axis=1), *stands.values()], axis=0)
-    return airborne(place_m[:, 0, 1], touches)
+    return airborne(body_m, touches)

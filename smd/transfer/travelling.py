@@ -7,8 +7,8 @@ import numpy as np
 from smd.acting.move import KNOT_RATE_HZ, Move, Placement, knots, nearest_turn
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import eased_clock, gaussian_smoothed, smootherstep
-from smd.transfer.ground_root import executed
-from smd.transfer.pacing import paced
+from smd.transfer.ground_root import EXECUTION, executed
+from smd.transfer.pacing import Pacing
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
 
@@ -40,6 +40,7 @@ def along_path(
     phase: float | None = None,
     from_gait: bool = False,
     into_gait: bool = False,
+    standing_s: float = 0.0,
 ) -> Move[Piece]:
     """Follow the path with a cyclic clip.
 
@@ -52,6 +53,8 @@ def along_path(
     from_gait, into_gait
         Whether the phrase before ends, and the one after begins, in full gait along the same
         path, so that there is no coming to rest between them.
+    standing_s
+        Time that it takes at least to get from standing into the clip, and back.
     """
     gait = piece.gait
     if gait is None:
@@ -69,7 +72,12 @@ def along_path(
         share = way_m / way_m[-1] if way_m[-1] > NOWHERE_M else even
         cycles = gait.cycles_for(way_m[-1], end_s - start_s)
         presence = _speed_presence(
-            time_s, way_m, gait.speed_m_s, from_gait=from_gait, into_gait=into_gait
+            time_s,
+            way_m,
+            gait.speed_m_s,
+            standing_s,
+            from_gait=from_gait,
+            into_gait=into_gait,
         )
         first = gait.passings[0].phase if phase is None else phase
     else:
@@ -93,11 +101,11 @@ def along_path(
 def leap(
     piece: Piece,
     path: GroundPath,
-    start_s: float,
+    pacing: Pacing,
     end_s: float,
     at: Placement,
     *,
-    pause_s: float = 0.0,
+    run_up_s: float = 0.0,
 ) -> Move[Piece]:
     """Follow the path with a clip that is played once, such as a jump.
 
@@ -106,19 +114,26 @@ def leap(
 
     Parameters
     ----------
-    pause_s
-        How long nothing is performed afterwards: the body may come back in it.
+    pacing
+        When each frame is shown.
+    end_s
+        When the phrase ends, and the path with it: the body may come back after that.
+    run_up_s
+        Time in which it gathers speed before it flies, and loses it after; 0 to move as the clip.
     """
-    pacing = paced(piece.clip, piece.near, start_s, end_s, pause_s)
+    start_s = pacing.start_s
     time_s = knots(start_s, pacing.end_s)
     frame = pacing.frame_at(time_s)
-    share = np.interp(frame, np.arange(len(piece.clip)), executed(piece.clip, piece.root))
+    if run_up_s > 0.0:
+        share = _glided(time_s, frame, piece, run_up_s)
+    else:
+        share = np.interp(frame, np.arange(len(piece.clip)), executed(piece.clip, piece.root))
     phrase_s = knots(start_s, end_s)
     over_ground = path.at(phrase_s)
     way_m = np.concatenate(
         [[0.0], np.cumsum(np.linalg.norm(np.diff(over_ground, axis=0), axis=-1))]
     )
-    if way_m[-1] > NOWHERE_M:
+    if way_m[-1] > NOWHERE_M and not run_up_s:
         clock_s = np.interp(share * way_m[-1], way_m, phrase_s)
     else:
         clock_s = start_s + share * (end_s - start_s)
@@ -134,6 +149,26 @@ def leap(
         presence=np.ones(len(time_s)),
         airborne=piece.airborne,
     )
+
+
+def _glided(time_s: FloatArray, frame: FloatArray, piece: Piece, run_up_s: float) -> FloatArray:
+    """Return the share of a planned path at each time: at an even speed in the air.
+
+    What does not fly, such as a roll, goes as planned in its execution.
+    """
+    if piece.airborne is None:
+        ends = piece.clip.stage_end_frames[EXECUTION - 1 : EXECUTION + 1].tolist()
+        off_s, on_s = np.interp(ends, frame, time_s)
+        return np.clip((time_s - off_s) / max(on_s - off_s, 1e-9), 0.0, 1.0)
+    off_s, on_s = np.interp([piece.airborne.first, piece.airborne.last], frame, time_s)
+    before_s = max(min(run_up_s, off_s - time_s[0]), 1e-3)
+    after_s = max(min(run_up_s, time_s[-1] - on_s), 1e-3)
+    speed = np.minimum(
+        smootherstep((time_s - off_s + before_s) / before_s),
+        smootherstep((on_s + after_s - time_s) / after_s),
+    )
+    way = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time_s))])
+    return np.asarray(way / way[-1])
 
 
 def _settling_s(path: GroundPath, time_s: FloatArray) -> tuple[float, float]:
@@ -159,7 +194,13 @@ def _take_off_s(time_s: FloatArray) -> tuple[float, float]:
 
 
 def _speed_presence(
-    time_s: FloatArray, way_m: FloatArray, usual_m_s: float, *, from_gait: bool, into_gait: bool
+    time_s: FloatArray,
+    way_m: FloatArray,
+    usual_m_s: float,
+    standing_s: float,
+    *,
+    from_gait: bool,
+    into_gait: bool,
 ) -> FloatArray:
     """Return a gait's blend weight: 0 at rest, 1 from a share of its speed on."""
     duration_s = time_s[-1] - time_s[0]
@@ -168,7 +209,7 @@ def _speed_presence(
     speed = np.gradient(way_m, time_s)
     full = FULL_GAIT_SPEED * min(usual_m_s, way_m[-1] / duration_s)
     presence = gaussian_smoothed(smootherstep(speed / full), FADING_S * KNOT_RATE_HZ)
-    settling_s = min(SETTLING_S, 0.25 * duration_s)
+    settling_s = max(min(SETTLING_S, 0.25 * duration_s), min(standing_s, 0.4 * duration_s))
     return presence * _ends(time_s, settling_s, from_same=from_gait, into_same=into_gait)
 
 

@@ -175,7 +175,7 @@ def test_three_metres_at_two_metres_a_second_are_too_fast_for_steps_but_not_for_
 
     def acted(name: str) -> Performance:
         score = Score((Part("prop", (Phrase(name, 1.0, 3.1),)),), "made up")
-        return smd.animate(score, recording, library)
+        return smd.animate(score, recording, library, timing="drawn")
 
     assert any("steps a minute" in warning for warning in acted(action).warnings)
     performance = acted(instead)

@@ -40,7 +40,7 @@ def library():
 @pytest.fixture(scope="module")
 def duel(library):
     recording, score = next(stories())
-    return recording, score, list(acted(recording, score, library, {}))
+    return recording, score, list(acted(recording, score, library, {"timing": "drawn"}))
 
 
 def test_people_do_what_people_can(library, shared_data):
@@ -117,7 +117,7 @@ def test_what_is_drawn_elsewhere_is_off_its_path(library, duel):
             for doodle in recording.doodles
         ),
     )
-    held = list(acted(still, score, library, {}))
+    held = list(acted(still, score, library, {"timing": "drawn"}))
     assert np.isnan(named(GUARDS, guards_of(held))["path"])  # no way was drawn
     assert named(GUARDS, guards_of(held))["gaits"] == 0
     assert named(GUARDS, guards_of(performers))["gaits"] > 0
@@ -157,7 +157,7 @@ def test_every_frame_is_somebodys(duel):
 def test_a_score_without_phrases_has_no_gaits_and_no_culprits(library, duel):
     recording, score, _ = duel
     empty = Score(tuple(replace(part, phrases=()) for part in score.performers))
-    performers = list(acted(recording, empty, library, {}))
+    performers = list(acted(recording, empty, library, {"timing": "drawn"}))
     found = named(GUARDS, guards_of(performers))
     assert (found["gaits"], found["lost"]) == (0, 0)
     assert np.isnan(found["over"])

@@ -50,7 +50,7 @@ def random_part(rng: np.random.Generator, seconds: float = 20.0) -> Part:
 
 
 def moves_of(part: Part, path: GroundPath, pieces: Repertoire):
-    return course(timeline(part, 0.0, 20.0), path, pieces, clock_s=0.0)
+    return course(timeline(part.phrases, 0.0, 20.0), path, pieces, clock_s=0.0)
 
 
 @pytest.mark.parametrize("seed", range(10))

@@ -11,7 +11,7 @@ RATE_HZ = 90.0
 
 
 def taken(library, speed_m_s, action="walk", phrases=1, warnings=()):
-    """The warnings of a performance of straight ways at a speed on the stage, with pauses."""
+    """The warnings of a performance, as drawn, of straight ways at a speed, with pauses."""
     scale = library.character.height_m / 0.175
     time_s = np.arange(round((1.0 + 4.0 * phrases) * RATE_HZ) + 1) / RATE_HZ
     way = np.zeros_like(time_s)
@@ -21,7 +21,7 @@ def taken(library, speed_m_s, action="walk", phrases=1, warnings=()):
     doodle = Doodle(time_s, place, np.tile([0.0, 0.0, 0.0, 1.0], (len(way), 1)), "fox")
     spoken = tuple(Phrase(action, 1.0 + 4.0 * i, 4.0 + 4.0 * i) for i in range(phrases))
     score = Score((Part("fox", spoken),), warnings=warnings)
-    return animate(score, Recording((doodle,)), library).warnings
+    return animate(score, Recording((doodle,)), library, timing="drawn").warnings
 
 
 @pytest.mark.parametrize(("action", "speed"), [("walk", 1.3), ("walk", 0.5), ("run", 4.0)])
@@ -60,7 +60,7 @@ def test_a_phrase_too_short_for_its_clip_is_warned_of(library):
 
     def said(pace: float) -> tuple[str, ...]:
         score = Score((Part("fox", (Phrase("bow", 1.0, 1.0 + length_s / pace),)),))
-        return animate(score, Recording((doodle,)), library).warnings
+        return animate(score, Recording((doodle,)), library, timing="drawn").warnings
 
     assert said(2.8) == ()
     (line,) = said(4.0)

@@ -32,7 +32,7 @@ UPPER = [
 
 def performed(part: Part) -> Performance:
     score = replace(SCORE, performers=(part, *SCORE.performers[1:]))
-    return smd.animate(score, RECORDING, LIBRARY, rate_hz=RATE_HZ)
+    return smd.animate(score, RECORDING, LIBRARY, rate_hz=RATE_HZ, timing="drawn")
 
 
 BEFORE = performed(SCORE.performers[0])

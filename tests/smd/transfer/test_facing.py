@@ -8,7 +8,7 @@ from smd.errors import TransferError
 from smd.geometry.rotations import heading_rad, quaternion_about
 from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
-from smd.transfer.facing import STILL_M_S, by_path, held, own_direction_rad, tangents
+from smd.transfer.facing import STILL_M_S, by_path, held, tangents
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Repertoire
 from smd.transfer.timeline import Span
@@ -87,7 +87,7 @@ def test_clips_that_go_backwards_or_aside_are_turned_to_do_so(library):
     from smd.transfer.repertoire import piece_of
 
     own = [
-        own_direction_rad(piece_of(library.clip(name), travels=True, legs=()))
+        piece_of(library.clip(name), travels=True, legs=()).direction_rad
         for name in ("walk", "side_step_left", "side_step_right", "walk_backward")
     ]
     assert own[:3] == pytest.approx([0.0, 0.5 * np.pi, -0.5 * np.pi], abs=0.05)

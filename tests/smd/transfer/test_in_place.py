@@ -4,41 +4,58 @@ import numpy as np
 import pytest
 
 from smd.acting.move import Placement
-from smd.transfer.in_place import facing, gesture, idling, turn, turn_passes, turns
+from smd.transfer.in_place import (
+    facing,
+    gesture,
+    idling,
+    turn,
+    turn_passes,
+    turns,
+    whole_cycles,
+)
+from smd.transfer.pacing import Pacing, paced
+from smd.transfer.repertoire import Piece
 
 AT = Placement(np.array([3.0, -2.0]), 0.5)
 
 
+def within(piece: Piece, start_s: float, end_s: float) -> Pacing:
+    return paced(piece.clip, piece.near, start_s, end_s, pause_s=0.0)
+
+
 def test_a_gesture_lasts_exactly_its_span_and_plays_its_clip_once(make_piece):
     piece = make_piece(frames=91)
-    move = gesture(piece, 2.0, 3.3, AT)
+    move = gesture(piece, within(piece, 2.0, 3.3), AT)
     assert move.time_s[[0, -1]].tolist() == [2.0, 3.3]
     assert move.frame[[0, -1]].tolist() == [0.0, 90.0]
     assert np.diff(move.frame) == pytest.approx(np.full(len(move.frame) - 1, move.frame[1]))
 
 
 def test_a_gesture_stays_and_keeps_its_heading(make_piece):
-    move = gesture(make_piece(), 0.0, 1.0, AT)
+    piece = make_piece()
+    move = gesture(piece, within(piece, 0.0, 1.0), AT)
     assert (move.root_m == AT.position_m).all()
     assert (move.heading_rad == 0.5).all()
 
 
 def test_a_step_that_a_gesture_takes_is_taken_where_the_character_faces(make_piece):
-    move = gesture(make_piece(ahead_m=0.4), 0.0, 1.0, AT)
+    piece = make_piece(ahead_m=0.4)
+    move = gesture(piece, within(piece, 0.0, 1.0), AT)
     step = move.end.position_m - AT.position_m
     assert step == pytest.approx(0.4 * np.array([np.sin(0.5), np.cos(0.5)]))
 
 
 @pytest.mark.parametrize(("duration_s", "cycles"), [(0.3, 1), (1.0, 1), (2.4, 2), (2.6, 3)])
 def test_a_cyclic_gesture_repeats_as_often_as_its_time_allows(make_piece, duration_s, cycles):
-    move = gesture(make_piece(frames=61, cyclic=True), 0.0, duration_s, AT)
+    piece = make_piece(frames=61, cyclic=True)
+    move = gesture(piece, whole_cycles(piece, 0.0, duration_s), AT)
     assert move.frame[-1] == pytest.approx(60.0 * cycles)
 
 
 def test_a_turn_goes_as_far_as_it_is_told_on_the_clip_s_own_course(make_piece):
     piece = make_piece(turn_rad=1.6, stages=(0.2, 0.4, 0.8, 0.9))
     assert turns(piece)
-    move = turn(piece, 1.0, 2.0, AT, 1.2)
+    move = turn(piece, within(piece, 1.0, 2.0), AT, 1.2)
     assert move.heading_at(np.array([1.0, 1.4, 1.6, 1.8, 2.0])) - 0.5 == pytest.approx(
         [0.0, 0.0, 0.6, 1.2, 1.2], abs=1e-9
     )

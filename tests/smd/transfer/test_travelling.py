@@ -3,8 +3,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from smd.acting.move import Placement
+from smd.acting.move import Move, Placement
+from smd.transfer.pacing import paced
 from smd.transfer.path import GroundPath
+from smd.transfer.repertoire import Piece
 from smd.transfer.travelling import along_path, leap
 
 AT = Placement(np.array([3.0, -2.0]), 0.0)
@@ -114,9 +116,14 @@ def test_flight_goes_by_time_and_takes_off_and_lands(make_piece, bent_path):
     assert move.presence_at(np.array([1.6, 2.5, 3.6])) == pytest.approx(np.ones(3))
 
 
+def jumped(jump: Piece, path: GroundPath, end_s: float, at: Placement) -> Move[Piece]:
+    """Return a jump from 1 s on."""
+    return leap(jump, path, paced(jump.clip, jump.near, 1.0, end_s, 0.0), end_s, at)
+
+
 @pytest.mark.parametrize("seconds", [0.3, 1.0, 2.5])
 def test_a_jump_moves_only_in_its_execution(jump, bent_path, seconds):
-    move = leap(jump, bent_path, 1.0, 1.0 + seconds, AT)
+    move = jumped(jump, bent_path, 1.0 + seconds, AT)
     phase = move.frame / jump.last_frame
     assert (move.root_m[phase < 0.4] == move.root_m[0]).all()
     assert move.root_m[phase > 0.7] == pytest.approx(
@@ -127,7 +134,7 @@ def test_a_jump_moves_only_in_its_execution(jump, bent_path, seconds):
 
 
 def test_a_jump_follows_its_path_re_timed_as_its_clip_travels(jump, bent_path):
-    move = leap(jump, bent_path, 1.0, 3.0, AT)
+    move = jumped(jump, bent_path, 3.0, AT)
     places = move.root_m - AT.position_m + bent_path.at(1.0)
     assert np.hypot(*places.T) == pytest.approx(np.full(len(places), 2.0), abs=1e-3)
     flying = (move.time_s > 1.81) & (move.time_s < 2.39)
@@ -136,6 +143,6 @@ def test_a_jump_follows_its_path_re_timed_as_its_clip_travels(jump, bent_path):
 
 
 def test_a_jump_turns_in_the_air_as_the_prop_did(jump, straight_path):
-    move = leap(jump, straight_path, 1.0, 3.0, Placement(np.zeros(2), 0.1))
+    move = jumped(jump, straight_path, 3.0, Placement(np.zeros(2), 0.1))
     assert move.heading_at(np.array([1.0, 1.8])) == pytest.approx([0.1, 0.1])
     assert move.heading_at(np.array([2.4, 3.0])) == pytest.approx([0.3, 0.3])
