@@ -25,9 +25,8 @@ from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quater
 from smd.score import Score
 from smd.smoothing import smooth
 from smd.transfer.pacing import core_frame
-from smd.transfer.path import GroundPath, ground_path
+from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
-from smd.transfer.scene import scene_scale
 from smd.transfer.staging import entrances, kept_apart
 
 LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
@@ -69,7 +68,7 @@ class Played(NamedTuple):
     actor : with poses at ``time_s (n,)``.
     moves : one after the other.
     idling : what is seen between them.
-    path : of the prop, on the stage.
+    path : of the prop, on the stage, as planned.
     feet : joints; ``stands (n, feet)`` when each should stand.
     """
 
@@ -97,15 +96,13 @@ def played(
     **options
         What else the performance was made with, for `entrances`.
     """
-    stage = scene_scale(recording, library.character.height_m, score.figure_height_m)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     cast = cast_of(library)
     alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop", **options)
     for actor, one in zip(performance.actors, kept_apart(alone, cast), strict=True):
         feet = tuple(leg.foot for leg in one.pieces.legs)
         stands, _ = stepped(one.moves, time_s, one.idling)
-        path = ground_path(recording.of(actor.name), stage)
-        yield Played(actor, time_s, one.moves, one.idling, path, feet, stands)
+        yield Played(actor, time_s, one.moves, one.idling, one.plan.path, feet, stands)
 
 
 def measured_feet(

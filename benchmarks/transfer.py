@@ -4,6 +4,7 @@
 50 simulated doodles over all shipped actions and all states of Effort (their Scores are what was
 meant), and real hands: the A-Frame sessions, understood with twice the usual tolerance, since
 nobody meant our gestures there, and waiting hands; beside the same figures for the neutral clips.
+Each is acted as drawn, and as a body can.
 
 Feet: ``contact``, mean speed over the ground of the part of a sole that bears, while its foot is
 labelled as standing (goal 0.02 m/s); ``near``, mean speed of heels and balls within 5 mm of the
@@ -11,7 +12,7 @@ ground, labelled or not; ``toes``, mean speed of toes below 0.05 m, and ``fast``
 that above 0.2 m/s, as NVIDIA's kimodo defines skating (goal: 0.01 m/s and 1 % beyond the clips'
 own); ``lowest`` point of any sole (goal -5 mm). Under each line is what toes the same clips have,
 played as fast, over their own ground: a clip that is played twice as fast has toes twice as fast.
-``path``: RMS distance of the ground root from the smoothed path in travelling phrases (2 cm).
+``path``: RMS distance of the ground root from the planned path in travelling phrases (2 cm).
 ``begin`` and ``done``: the latest that a clip begins, or has shown what it is about, beside the
 Score, in frames (1); a gait that walks through a gap below 0.3 s begins there.
 ``pops``: turns of a joint in a frame that exceed the clip's own by more than 8 degrees, per
@@ -53,6 +54,7 @@ from smd.synthetic.takes import Take
 STORIES = Path(__file__).parents[1] / "recordings"
 DATA = Path(__file__).parents[2] / "shared" / "data"
 TAKES, PHRASES = 50, 8
+TIMINGS = ("drawn", "feasible")
 
 Cast = tuple[Recording, Score]
 
@@ -125,14 +127,15 @@ def toes_of(toes_m_s: FloatArray) -> str:
     return f"{toes_m_s.mean():7.3f} {fast:6.2f}"
 
 
-def print_casts(name: str, casts: list[Cast], library: Library) -> None:
+def print_casts(name: str, casts: list[Cast], library: Library, timing: str) -> None:
     """Act out some Scores and print their line, and that of the clips they play."""
+    name = f"{name}, {timing}"
     feet, toes, errors, begins, dones = [], [], [], [], []
     popped, turns, worst = 0, 0, 0.0
     inside, across, late, phrases, seconds = [], [], [], 0, 0.0
     for recording, score in casts:
-        performance = animate(score, recording, library, rate_hz=RATE_HZ)
-        for seen in quality.played(performance, recording, score, library):
+        performance = animate(score, recording, library, rate_hz=RATE_HZ, timing=timing)
+        for seen in quality.played(performance, recording, score, library, timing=timing):
             skeleton = seen.actor.character.skeleton
             feet.append(
                 quality.measured_feet(skeleton, seen.poses, seen.feet, seen.stands, RATE_HZ)
@@ -195,23 +198,24 @@ def main() -> None:
         print(" " * 24, *(f"{text:>{width}s}" for text, width in zip(texts, widths, strict=True)))
     every = [feet for clip in library.clips.values() if (feet := quality.feet_of_clip(clip))]
     print(row("all neutral clips", every))
-    print_casts("stories", list(stories()), library)
-    print_casts(f"{TAKES} simulated doodles", list(simulated(library)), library)
-    for name, sessions in (("A-Frame sessions", True), ("waiting hands", False)):
+    groups = {"stories": list(stories()), f"{TAKES} simulated": list(simulated(library))}
+    for name, sessions in (("sessions", True), ("waiting hands", False)):
         if folder.is_dir():
-            print_casts(name, list(real_hands(folder, library, sessions=sessions)), library)
+            groups[name] = list(real_hands(folder, library, sessions=sessions))
         else:
             print(f"{name}: data absent ({folder})")
+    for (name, casts), timing in product(groups.items(), TIMINGS):
+        print_casts(name, casts, library, timing)
     print()
     print(machine())
     take = long_recording(duration_s=180.0, rate_hz=90.0)
     score = parse(take, library)
-    for rate_hz, dial in product((24.0, 60.0), (0.0, 1.0)):
+    for timing, dial in product(TIMINGS, (0.0, 1.0)):
         times = seconds_of(
-            lambda r=rate_hz, e=dial: animate(score, take, library, rate_hz=r, expressiveness=e)
+            lambda t=timing, e=dial: animate(score, take, library, timing=t, expressiveness=e)
         )
         print(
-            f"animate, 180 s, two devices, {rate_hz:g} Hz, expressiveness {dial:g}: "
+            f"animate, 180 s, two devices, 24 Hz, {timing}, expressiveness {dial:g}: "
             f"{median(times):.2f} s ({times[0]:.2f} to {times[-1]:.2f})"
         )
 

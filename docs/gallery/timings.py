@@ -111,7 +111,14 @@ def tile(actor: Actor, frame: int, *, side: bool) -> Image.Image:
         plotter.add_mesh(pv.PolyData(points, faces), color="#c8a27a", smooth_shading=True)
     root = world_m[0] * [1.0, 0.0, 1.0]
     cell = np.round(root / 0.5) * 0.5  # the grid stands still while the camera goes along
-    ground = pv.Plane(cell, (0.0, 1.0, 0.0), 3.0, 3.0, 6, 6)
+    ground = pv.Plane(
+        center=cell,
+        direction=(0.0, 1.0, 0.0),
+        i_size=3.0,
+        j_size=3.0,
+        i_resolution=6,
+        j_resolution=6,
+    )
     plotter.add_mesh(ground, style="wireframe", color="#b9bec4")
     up = np.array([0.0, 1.0, 0.0])
     plotter.camera.position = root + _away(world_q[0], side=side) + 1.3 * up
