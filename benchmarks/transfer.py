@@ -162,15 +162,16 @@ def print_casts(name: str, casts: list[Cast], library: Library, timing: str) -> 
     above = 100.0 * np.mean(np.concatenate(across) > limit)
     rms = 100.0 * np.sqrt(np.mean(error**2)) if len(error) else 0.0
     more = (
-        f" {rms:6.2f} {begin.max():6.1f} {done.max():6.1f} {1e6 * popped / turns:7.0f}"
-        f" {worst:5.0f} {above:6.2f}"
+        f" {rms:6.2f} {begin.max(initial=0.0):6.1f} {done.max(initial=0.0):6.1f}"
+        f" {1e6 * popped / turns:7.0f} {worst:5.0f} {above:6.2f}"
     )
     print(row(name, feet, more))
     print(f"{'  their clips, as fast':42s} {toes_of(np.concatenate(toes))}")
     if not len(np.concatenate(late)):
         return
+    early = np.sum(begin > 1.0) / max(len(begin), 1)
     print(
-        f"  {phrases} phrases, {seconds:.0f} s; begun a frame early: {np.mean(begin > 1.0):.1%}; "
+        f"  {phrases} phrases, {seconds:.0f} s; begun a frame early: {early:.1%}; "
         "halfway later than the prop: 10th, 50th, 90th percentile "
         + ", ".join(f"{x:+.2f}" for x in np.quantile(np.concatenate(late), [0.1, 0.5, 0.9]))
         + " s"

@@ -44,7 +44,9 @@ def gaussian_smoothed(value: FloatArray, sigma: float) -> FloatArray:
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     kernel /= kernel.sum()
     columns = value.reshape(n, -1)
-    padded = np.pad(columns, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
+    before = 2.0 * columns[:1] - columns[reach:0:-1]
+    after = 2.0 * columns[-1:] - columns[-2 : -2 - reach : -1]
+    padded = np.concatenate([before, columns, after])
     smoothed = [np.convolve(column, kernel, mode="valid") for column in padded.T]
     return np.stack(smoothed, axis=-1).reshape(value.shape)
 
