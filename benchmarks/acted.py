@@ -5,6 +5,7 @@ The Score and the path are the drawn ones, whatever the performance made of thei
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
@@ -28,6 +29,7 @@ from smd.pipeline import animate
 from smd.score import Part, Phrase, Score
 from smd.transfer.demands import way_of
 from smd.transfer.repertoire import Piece
+from smd.transfer.stretch import stretched
 from smd.transfer.timeline import SHORTEST_IDLE_S
 from smd.transfer.travelling import NOWHERE_M
 
@@ -137,11 +139,18 @@ def on_hands(clip: Clip) -> bool:
 def acted(
     recording: Recording, score: Score, library: Library, options: dict[str, Any]
 ) -> Iterator[Acted]:
-    """Act out a Score, `animate` being given some options, and yield its performers' figures."""
-    performance = animate(score, recording, library, rate_hz=RATE_HZ, **options)
-    parts = {part.device: part for part in score.performers}
+    """Act out a Score, `animate` being given some options, and yield its performers' figures.
+
+    Where the take is stretched, what was drawn is taken to have been drawn as slowly.
+    """
     first_s = min(float(doodle.time_s[0]) for doodle in recording.doodles)
     last_s = max(float(doodle.time_s[-1]) for doodle in recording.doodles)
+    performance = animate(score, recording, library, rate_hz=RATE_HZ, **options)
+    if "stretch" in options:
+        factor = json.loads(performance.source["plan"])["stretch"]
+        score, recording = stretched(score, recording, factor)
+        options = {name: value for name, value in options.items() if name != "stretch"}
+    parts = {part.device: part for part in score.performers}
     for seen in quality.played(performance, recording, score, library, **options):
         skeleton = seen.actor.character.skeleton
         anatomy = anatomy_of(skeleton)

@@ -25,8 +25,9 @@ from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quater
 from smd.score import Score
 from smd.smoothing import smooth
 from smd.transfer.pacing import core_frame
-from smd.transfer.path import GroundPath
+from smd.transfer.path import GroundPath, ground_path
 from smd.transfer.repertoire import Piece
+from smd.transfer.scene import scene_scale
 from smd.transfer.staging import entrances, kept_apart
 
 LOW_TOES_M, FAST_TOES_M_S = 0.05, 0.2
@@ -68,7 +69,7 @@ class Played(NamedTuple):
     actor : with poses at ``time_s (n,)``.
     moves : one after the other.
     idling : what is seen between them.
-    path : of the prop, on the stage, as planned.
+    path : of the prop, on the stage, as drawn; planned : the same as planned.
     feet : joints; ``stands (n, feet)`` when each should stand.
     """
 
@@ -77,6 +78,7 @@ class Played(NamedTuple):
     moves: tuple[Move[Piece], ...]
     idling: Idling
     path: GroundPath
+    planned: GroundPath
     feet: tuple[int, ...]
     stands: BoolArray
 
@@ -96,13 +98,15 @@ def played(
     **options
         What else the performance was made with, for `entrances`.
     """
+    stage = scene_scale(recording, library.character.height_m, score.figure_height_m)
     time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
     cast = cast_of(library)
     alone = entrances(score, recording, cast, time_s, expressiveness=1.0, heading="prop", **options)
     for actor, one in zip(performance.actors, kept_apart(alone, cast), strict=True):
         feet = tuple(leg.foot for leg in one.pieces.legs)
         stands, _ = stepped(one.moves, time_s, one.idling)
-        yield Played(actor, time_s, one.moves, one.idling, one.plan.path, feet, stands)
+        path = ground_path(recording.of(actor.name), stage)
+        yield Played(actor, time_s, one.moves, one.idling, path, one.plan.path, feet, stands)
 
 
 def measured_feet(
@@ -179,8 +183,8 @@ def path_errors_m(seen: Played) -> FloatArray:
         start_s = move.start_s  # of a gait perhaps earlier than the phrase's
         rows = (seen.time_s >= start_s) & (seen.time_s <= phrase.end_s)
         # The character goes on from where it stood: the path is put there.
-        wanted = seen.path.at(np.arange(start_s, phrase.end_s, 1e-3))
-        wanted += move.root_m[0] - seen.path.at(start_s)
+        wanted = seen.planned.at(np.arange(start_s, phrase.end_s, 1e-3))
+        wanted += move.root_m[0] - seen.planned.at(start_s)
         root = seen.actor.poses.translation_m[rows][:, 0, [0, 2]]
         gaps = np.linalg.norm(root[:, None] - wanted[None], axis=-1)
         errors.append(gaps.min(axis=1, initial=np.inf))

@@ -53,7 +53,11 @@ from smd.pipeline import parse
 from smd.transfer.demands import steps_per_min
 from smd.transfer.travelling import NOWHERE_M
 
-TIMINGS: dict[str, dict[str, Any]] = {name: {"timing": name} for name in ("drawn", "feasible")}
+TIMINGS: dict[str, dict[str, Any]] = {
+    "drawn": {"timing": "drawn"},
+    "feasible": {"timing": "feasible"},
+    "slower": {"timing": "feasible", "stretch": "auto"},
+}
 """What `animate` is given beside its usual options, by the timing's name."""
 
 LOOSE = 3.0
