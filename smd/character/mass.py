@@ -92,11 +92,8 @@ def _joints(limb: LimbPlan) -> dict[str, int]:
 
 def _add_trunk(share: FloatArray, plan: BodyPlan) -> None:
     """Add trunk and head, between what legs and arms hang from, in place."""
-    pairs: dict[bool, list[int]] = {True: [], False: []}
-    hips = [limb.upper for limb in plan.limbs[:2]]  # the hind legs come first
-    pairs[True] = hips
-    pairs[False] = [limb.upper for limb in plan.limbs[2:4]] or [plan.chest]
-    low, high = pairs[True], pairs[False]
+    low = [limb.upper for limb in plan.limbs[:2]]  # the hind legs come first
+    high = [limb.upper for limb in plan.limbs[2:4]] or [plan.chest]
     for joint in low:
         share[joint] += (0.5 * TRUNK - ABOVE_SHOULDERS * HEAD) / len(low)
     for joint in high:

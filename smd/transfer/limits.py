@@ -17,8 +17,8 @@ class Limits:
 
     Attributes
     ----------
-    acceleration_m_s2 : of a body over the ground. Real walks, boxing and a slash reach 2.9 to
-        4.6 m/s² in one frame of a hundred, measured on recordings.
+    acceleration_m_s2 : of a body over the ground. Real walks and jumps reach 1.7 to 5.3 m/s² in
+        one frame of a hundred, measured on recordings.
     push_m_s2 : of its mass over the ground, in an action that is done on the spot.
     speed_m_s : over the ground of what neither runs nor flies.
     turning_rad_s, turning_rad_s2 : about the upright axis, and how fast that changes.

@@ -155,8 +155,8 @@ def feasible(
     )
     clock = _clock(part.phrases, timed, start_s, end_s)
     planned, spans, drawn_s, played_s = planned_path(path, spans, pieces, *clock, limits)
-    played = iter(span.phrase for span in spans if span.phrase is not None)
-    phrases = tuple(_planned(*one, next(played)) for one in both)
+    played = [span.phrase for span in spans if span.phrase is not None]
+    phrases = tuple(_planned(*one, then) for one, then in zip(both, played, strict=True))
     return Plan(phrases, spans, planned, drawn_s, played_s)
 
 
