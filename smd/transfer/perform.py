@@ -9,6 +9,7 @@ import numpy as np
 
 from smd.acting.act import Frames, act
 from smd.acting.company import encounters
+from smd.acting.gaze import with_gaze
 from smd.acting.performance import Actor, Performance
 from smd.acting.terrain import Terrain
 from smd.cast import ActionLibrary, Cast, cast_of
@@ -66,7 +67,8 @@ def perform(
     terrain
         What they go on; by default the level ground.
     timing
-        When phrases are played: "drawn", as in the Score, or "feasible", as a body can.
+        When phrases are played: "drawn", as in the Score and to the letter of the paper, or
+        "feasible", as a body can, with heads that look where it goes.
     stretch
         How many times as long as the recording the performance lasts; "auto" for as long as most
         phrases need.
@@ -122,6 +124,8 @@ def perform(
             break
     staged = kept_apart(alone, cast)
     actors = tuple(acted(one, cast, frames, terrain) for one in staged)
+    if timing != DRAWN:
+        actors = with_gaze(actors, rate_hz)
     asked = [line for one in staged for line in demands(one.part.device, one.moves)]
     asked += [line for one in staged for line in unmet(one.part.device, one.plan)]
     devices = [part.device for part in score.performers]
