@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from actions_library.authoring.legs import Leg
 from actions_library.authoring.rigging import JointRow, skeleton_of, with_right_side
 from smd.character.skeleton import Skeleton
 
@@ -26,6 +27,18 @@ _ROWS = (
     JointRow("left_foot", "left_lower_leg", (0.096, 0.085, -0.020), "intermediate"),
     JointRow("left_toes", "left_foot", (0.100, 0.022, 0.115), "end_effector"),
 )
+
+LEGS = {
+    side: Leg(
+        f"{side}_leg",
+        f"{side}_upper_leg",
+        f"{side}_lower_leg",
+        f"{side}_foot",
+        f"{side}_toes",
+        heel_behind_m=0.078,
+    )
+    for side in ("left", "right")
+}
 
 
 def humanoid_skeleton() -> Skeleton:
