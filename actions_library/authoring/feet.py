@@ -15,6 +15,9 @@ from smd.geometry.rotations import quaternion_from_euler, rotate
 _STEP_S = 1e-4
 """Step of the one-sided differences that give a swing its first and last velocity."""
 
+ALWAYS_S = 1e3
+"""Before and after any clip."""
+
 FREEING_S = 0.12
 """Time in which a foot that has left the ground comes under its leg's own keys, and back."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from actions_library.authoring.legs import Leg
+from actions_library.authoring.legs import RigLeg
 from actions_library.authoring.rigging import JointRow, skeleton_of, with_right_side
 from smd.character.skeleton import Skeleton
 
@@ -29,7 +29,7 @@ _ROWS = (
 )
 
 LEGS = {
-    side: Leg(
+    side: RigLeg(
         f"{side}_leg",
         f"{side}_upper_leg",
         f"{side}_lower_leg",

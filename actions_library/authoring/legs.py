@@ -27,7 +27,7 @@ _X = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class RigLeg:
     """A leg's joints, each the parent of the next, and how it stands.
 
     Attributes
@@ -66,7 +66,7 @@ class Leg:
         return (self.toes,) if self.on_toes else (self.foot, self.toes)
 
 
-def foot_shape(skeleton: Skeleton, leg: Leg) -> FootShape:
+def foot_shape(skeleton: Skeleton, leg: RigLeg) -> FootShape:
     """Return a foot's measures: the ball at the toes' joint, the heel on the ground."""
     height = float(skeleton.world_from_bind[skeleton.index(leg.foot), 1, 3])
     below = np.array([0.0, -height, 0.0])
@@ -75,7 +75,7 @@ def foot_shape(skeleton: Skeleton, leg: Leg) -> FootShape:
     return FootShape(ball=ball, heel=heel, ankle_height=height, on_toes=leg.on_toes)
 
 
-def pose_leg(pose: Pose, leg: Leg, numbers: FloatArray | None, path: FootPath | None) -> None:
+def pose_leg(pose: Pose, leg: RigLeg, numbers: FloatArray | None, path: FootPath | None) -> None:
     """Pose a leg below what carries it: by its keys, by its foot's path, or between both.
 
     A knee points where foot and hips do, between them; in the air where its key says.
@@ -116,7 +116,7 @@ def pose_leg(pose: Pose, leg: Leg, numbers: FloatArray | None, path: FootPath | 
         pose.turn(leg.toes, quaternion_about(_X, toes))
 
 
-def leg_room_m(pose: Pose, leg: Leg, path: FootPath) -> FloatArray:
+def leg_room_m(pose: Pose, leg: RigLeg, path: FootPath) -> FloatArray:
     """Return how far the hips may rise until a leg is as straight as it gets, ``(n,)``.
 
     Below 0 they must sink, or the foot falls short. Without limit where the leg has its own keys.
@@ -127,16 +127,16 @@ def leg_room_m(pose: Pose, leg: Leg, path: FootPath) -> FloatArray:
     return np.where(path.free > 0.0, np.inf, np.sqrt(straight**2 - aside) + to[:, 1])
 
 
-def _limb(skeleton: Skeleton, leg: Leg) -> Limb:
+def _limb(skeleton: Skeleton, leg: RigLeg) -> Limb:
     return limb_of(skeleton, leg.upper, leg.lower, leg.foot, _sided(leg.knee, leg))
 
 
-def _sided(vector: Vector, leg: Leg) -> FloatArray:
+def _sided(vector: Vector, leg: RigLeg) -> FloatArray:
     """Return the world's direction of one away from the middle (out, up, ahead)."""
     return np.array(vector) * [leg.out, 1.0, 1.0]
 
 
-def _hinge(skeleton: Skeleton, leg: Leg) -> FloatArray:
+def _hinge(skeleton: Skeleton, leg: RigLeg) -> FloatArray:
     """Return the axis that a resting leg folds about.
 
     Where the knee points level it is level, as if the leg hung straight down.
@@ -148,7 +148,9 @@ def _hinge(skeleton: Skeleton, leg: Leg) -> FloatArray:
     return normalized(np.cross(_sided(leg.knee, leg), along))
 
 
-def _swing_blade(pose: Pose, leg: Leg, numbers: FloatArray | None, path: FootPath | None) -> None:
+def _swing_blade(
+    pose: Pose, leg: RigLeg, numbers: FloatArray | None, path: FootPath | None
+) -> None:
     """Turn a shoulder blade by its share of the angle that its leg has swung ahead of rest."""
     blade, foot = (pose.skeleton.index(joint) for joint in (leg.blade, leg.foot))
     rest = pose.skeleton.world_from_bind[foot, :3, 3] - pose.skeleton.world_from_bind[blade, :3, 3]
@@ -169,7 +171,7 @@ def _ahead_rad(to: FloatArray) -> FloatArray:
     return np.asarray(np.arctan2(to[..., 2], -to[..., 1]))
 
 
-def _free_leg(pose: Pose, leg: Leg, numbers: FloatArray, limb: Limb) -> None:
+def _free_leg(pose: Pose, leg: RigLeg, numbers: FloatArray, limb: Limb) -> None:
     key = columns_of(LegKey(), numbers)
     mirror = np.array([leg.out, 1.0, 1.0])
     carrier = pose.parent_rotation(leg.upper)
