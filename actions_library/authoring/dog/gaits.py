@@ -49,7 +49,7 @@ def walk(rig: Rig) -> Clip:
     half = [
         key(  # the left hind foot lands
             0.0,
-            place=Place(left=-0.004, up=-0.020),
+            place=Place(left=-0.004, up=-0.024),
             body=Turn(yaw=-3.0, lean=1.0, tilt=1.5),
             spine=Turn(yaw=5.0, tilt=-2.0),
             head=Turn(yaw=0.5, lean=4.0),
@@ -59,7 +59,7 @@ def walk(rig: Rig) -> Clip:
         ),
         key(  # the left fore foot lands
             0.25,
-            place=Place(left=0.006, up=-0.020),
+            place=Place(left=0.006, up=-0.028),
             body=Turn(yaw=0.0, lean=-0.5, tilt=1.0),
             spine=Turn(yaw=0.0, tilt=-2.0),
             head=Turn(yaw=1.0, lean=7.0),
