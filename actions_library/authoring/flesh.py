@@ -74,6 +74,7 @@ def melted_mesh(
     step_m: float,
     triangle_count: int,
     color_rgb: tuple[float, float, float],
+    hollows: Sequence[Lump] = (),
     magnified: Warp | None = None,
 ) -> Mesh:
     """Return the surface of lumps melted together, symmetric, with the weights of their joints.
@@ -88,14 +89,18 @@ def melted_mesh(
         solid's thickness, or less.
     triangle_count
         About how many triangles the whole mesh has.
+    hollows
+        Taken away afterwards, mirrored too: sockets of eyes, a mouth. They move nothing.
     magnified
         Moves points apart where more triangles than their size deserves are to stay.
     """
-    every = [*lumps, *(_mirror(lump) for lump in lumps if _off_the_middle(lump.shape))]
+    every = _with_images(lumps)
     low, high = _bounds([lump.shape for lump in every], 2.0 * step_m)
     field = Field(([0.0, low[1], low[2]], high), step_m)
     for lump in every:
         field.add(lump.shape, lump.reach_m)
+    for hollow in _with_images(hollows):
+        field.carve(hollow.shape, hollow.reach_m)
     points, triangles, mirror = mirrored(*half_surface(field, triangle_count // 2, magnified))
     weights = lump_weights(points, every, skeleton)
     mean = adjacency(triangles, len(points))
@@ -135,6 +140,11 @@ def _bounds(shapes: Sequence[Shape], margin_m: float) -> tuple[FloatArray, Float
     low = np.min([corner for corner, _ in corners], axis=0) - margin_m
     high = np.max([corner for _, corner in corners], axis=0) + margin_m
     return low, high
+
+
+def _with_images(lumps: Sequence[Lump]) -> list[Lump]:
+    """Return lumps and the mirror images of those that are off the middle."""
+    return [*lumps, *(_mirror(lump) for lump in lumps if _off_the_middle(lump.shape))]
 
 
 def _off_the_middle(shape: RoundCone | Ellipsoid) -> bool:

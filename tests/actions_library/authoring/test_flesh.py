@@ -45,19 +45,38 @@ def test_a_mesh_is_closed_and_turned_outward(mesh):
     there, back = {tuple(e) for e in ends}, {tuple(e[::-1]) for e in ends}
     assert len(there) == len(ends)
     assert there == back
+    assert volume_m3(mesh) > 0.0
+
+
+def volume_m3(mesh):
     corners = mesh.points_m[mesh.triangles]
-    volume = np.einsum("tk,tk->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
-    assert volume > 0.0
+    return np.einsum("tk,tk->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+
+
+def ball_mesh(hollows=()):
+    return melted_mesh(
+        "ball",
+        SKELETON,
+        [ball("trunk", (0.0, 0.5, 0.0), 0.1)],
+        step_m=0.006,
+        triangle_count=3000,
+        color_rgb=(1.0, 0.0, 0.0),
+        hollows=hollows,
+    )
 
 
 def test_a_ball_alone_has_the_volume_of_a_sphere():
-    one = ball("trunk", (0.0, 0.5, 0.0), 0.1)
-    mesh = melted_mesh(
-        "ball", SKELETON, [one], step_m=0.006, triangle_count=2000, color_rgb=(1.0, 0.0, 0.0)
-    )
-    corners = mesh.points_m[mesh.triangles]
-    volume = np.einsum("tk,tk->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
-    assert volume == pytest.approx(4.0 / 3.0 * np.pi * 0.1**3, rel=0.01)
+    assert volume_m3(ball_mesh()) == pytest.approx(4.0 / 3.0 * np.pi * 0.1**3, rel=0.01)
+
+
+def test_hollows_are_taken_away_on_both_sides():
+    r = 0.03  # of a socket whose centre is on the surface: about half of it is inside
+    hollow = ball("trunk", (0.06, 0.5, 0.08), r, reach_m=0.0)
+    lost = volume_m3(ball_mesh()) - volume_m3(ball_mesh([hollow]))
+    # the lens of two spheres whose centres are 0.1 apart
+    d, big = 0.1, 0.1
+    lens = np.pi * (big + r - d) ** 2 * (d**2 + 2 * d * (big + r) - 3 * (big - r) ** 2) / (12 * d)
+    assert lost == pytest.approx(2.0 * lens, rel=0.1)
 
 
 def test_two_solids_off_the_middle_are_two_meshes_in_one():
