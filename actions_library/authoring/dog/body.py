@@ -188,8 +188,8 @@ def _features(skeleton: Skeleton) -> list[Mesh]:
     eye = [ball("head", (0.031, 0.663, 0.421), 0.0115)]
     nose = [Lump("head", Ellipsoid((0.0, 0.632, 0.512), (0.017, 0.013, 0.012)))]
     return [
-        melted_mesh(name, skeleton, lumps, step_m=0.002, triangle_count=count, color_rgb=DARK_RGB)
-        for name, lumps, count in (("eyes", eye, 400), ("nose", nose, 300))
+        melted_mesh(name, skeleton, lumps, step_m=step_m, triangle_count=300, color_rgb=DARK_RGB)
+        for name, lumps, step_m in (("eyes", eye, 0.002), ("nose", nose, 0.003))
     ]
 
 
