@@ -12,6 +12,7 @@ from laban.frozen import Frozen
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.poses import Poses
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.doodle import Doodle
 from smd.errors import TransferError
 from smd.geometry.arrays import frozen_array
@@ -34,6 +35,7 @@ class Actor(Frozen):
         0 is the ground root in the world.
     phrases : what it performs, in time order, where that has names.
     doodles : what it was drawn with, if it was, in metres of the character's world.
+    tracks : weights of the character's shapes, and any other control, a value each frame.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Actor(Frozen):
     poses: Poses
     phrases: tuple[Phrase, ...] = ()
     doodles: tuple[Doodle, ...] = ()
+    tracks: Tracks = NO_TRACKS
 
     def __post_init__(self) -> None:
         j = len(self.character.skeleton)
@@ -55,6 +58,7 @@ class Actor(Frozen):
         shape = (len(rotation), j, 3)
         translation = frozen_array("translation_m", translation, shape, TransferError)
         object.__setattr__(self, "poses", Poses(rotation, translation))
+        object.__setattr__(self, "tracks", self.tracks.over(len(rotation), TransferError))
         object.__setattr__(self, "phrases", tuple(self.phrases))
         object.__setattr__(self, "doodles", tuple(self.doodles))
 
