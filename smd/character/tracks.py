@@ -73,6 +73,13 @@ class Tracks(Frozen):
         """Return the tracks that have none of some names."""
         return self.among(set(self.names) - set(names))
 
+    def beside(self, other: Tracks) -> Tracks:
+        """Return these tracks and others, of other names and as many frames."""
+        if not other.names or not self.names:
+            return self if self.names else other
+        value = np.concatenate([self.value, other.over(len(self)).value], axis=-1)
+        return Tracks(self.names + other.names, value)
+
     def at(self, frame: FloatArray) -> Tracks:
         """Return the tracks at fractional frames ``(m,)`` from 0 to n - 1, linear between two."""
         if not self.names:
