@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -83,10 +84,14 @@ class Character:
     @property
     def shapes(self) -> tuple[str, ...]:
         """Names of its meshes' shapes, each once."""
-        named = dict.fromkeys(shape.name for mesh in self.meshes for shape in mesh.shapes)
-        return tuple(named)
+        return shape_names(self.meshes)
 
     @property
     def height_m(self) -> float:
         """Height of the bound figure, from the ground to its highest point."""
         return float(max(mesh.points_m[:, 1].max() for mesh in self.meshes))
+
+
+def shape_names(meshes: Iterable[Mesh]) -> tuple[str, ...]:
+    """Return the names of all meshes' shapes, each once."""
+    return tuple(dict.fromkeys(shape.name for mesh in meshes for shape in mesh.shapes))
