@@ -1,4 +1,4 @@
-"""Clip: a skeleton's poses over time, with its stages and contacts."""
+"""Clip: a skeleton's poses and tracks over time, with its stages and contacts."""
 
 from __future__ import annotations
 

@@ -59,20 +59,21 @@ def skin_points(
     leading = world_from_bind.shape[:-3]
     # (…, 3, 4 k) with (4 k, p): the points come out with their coordinates first.
     rows = np.moveaxis(world_from_bind, -3, -2).reshape(-1, 4 * len(used)).astype(np.float32)
-    moved = (rows @ _weighted_points(mesh, used)).reshape(-1, 3, len(mesh.points_m))
+    shares = _shares(mesh, used)
+    moved = (rows @ _weighted_points(mesh, shares)).reshape(-1, 3, len(mesh.points_m))
     if shape_weights is not None and mesh.shapes:
         weights = np.broadcast_to(shape_weights, (*leading, len(mesh.shapes)))
         weights = weights.reshape(-1, len(mesh.shapes)).astype(np.float32)
-        turns = world_from_bind[..., :3].reshape(-1, len(used), 3, 3).astype(np.float32)
-        _add_shapes(moved, mesh, used, turns, weights)
+        turns = world_from_bind[..., :3].reshape(-1, len(used), 3, 3)
+        _add_shapes(moved, mesh, shares, turns, weights)
     return np.swapaxes(moved.reshape(*leading, 3, -1), -1, -2).astype(np.float64)
 
 
 def _add_shapes(
     moved: NDArray[np.float32],
     mesh: Mesh,
-    used: IntArray,
-    turns: NDArray[np.float32],
+    shares: FloatArray,
+    turns: FloatArray,
     weights: NDArray[np.float32],
 ) -> None:
     """Add what shapes move to skinned points ``(n, 3, p)``.
@@ -82,8 +83,10 @@ def _add_shapes(
 
     Parameters
     ----------
+    shares
+        ``(k, p)`` of each joint used in each point.
     turns
-        ``(n, k, 3, 3)`` of each joint used, from the bind pose.
+        ``(n, k, 3, 3)`` of the same joints, from the bind pose.
     weights
         ``(n, s)`` of the shapes.
     """
@@ -96,16 +99,15 @@ def _add_shapes(
     for row, shape in zip(offsets, mesh.shapes, strict=True):
         row[:, np.searchsorted(points, shape.indices)] = shape.offsets_m.T
     flat = offsets.reshape(len(offsets), -1)
-    shares = _shares(mesh, used).astype(np.float32)
     joints = np.flatnonzero(shares[:, touched].any(axis=1))
-    turns = np.ascontiguousarray(np.moveaxis(turns[:, joints], 1, 0))
-    shares = shares[np.ix_(joints, points)]
+    share_of = shares[np.ix_(joints, points)].astype(np.float32)
+    turn_of = np.ascontiguousarray(np.moveaxis(turns[:, joints], 1, 0), dtype=np.float32)
     step = max(_BLOCK // len(points), 1)
     for start in range(0, len(moved), step):
         rows = slice(start, start + step)
         summed = (weights[rows] @ flat).reshape(-1, 3, len(points))
         added = np.zeros_like(summed)
-        for turn, share in zip(turns[:, rows], shares, strict=True):
+        for turn, share in zip(turn_of[:, rows], share_of, strict=True):
             added += turn @ (summed * share)
         at = 0
         for first, end in runs:
@@ -119,11 +121,11 @@ def _runs(indices: IntArray) -> list[tuple[int, int]]:
     return [(int(run[0]), int(run[-1]) + 1) for run in np.split(indices, cuts)]
 
 
-def _weighted_points(mesh: Mesh, used: IntArray) -> NDArray[np.float32]:
+def _weighted_points(mesh: Mesh, shares: FloatArray) -> NDArray[np.float32]:
     """Return each point ``(x, y, z, 1)`` times its weight for each joint used, ``(4 k, p)``."""
     p = len(mesh.points_m)
     points = np.concatenate([mesh.points_m, np.ones((p, 1))], axis=-1)
-    weighted = _shares(mesh, used)[:, None, :] * points.T[None]
+    weighted = shares[:, None, :] * points.T[None]
     return weighted.reshape(-1, p).astype(np.float32)
 
 
