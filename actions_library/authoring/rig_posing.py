@@ -12,9 +12,10 @@ from actions_library.authoring.legs import RigLeg, foot_shape, pose_leg
 from actions_library.authoring.pose import Pose
 from actions_library.authoring.posing import RATE_HZ, RootCourse
 from actions_library.authoring.rig import BODY, PLACE, Chain, Rig
-from actions_library.authoring.rig_keys import RigKey, parts_named, rig_curve
+from actions_library.authoring.rig_keys import RigKey, parts_named, rig_curve, track_curves
 from actions_library.authoring.waves import Wave
 from smd.character.clip import Clip
+from smd.character.tracks import Tracks
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import quaternion_about, quaternion_from_euler, rotate, slerp
 
@@ -108,6 +109,7 @@ def make_rig_clip(
         contact_joints=tuple(contacts),
         contacts=np.array(list(contacts.values()), dtype=bool).reshape(-1, frames).T,
         cyclic=cyclic,
+        tracks=Tracks(rig.tracks, track_curves(keys, rig.tracks, frames, RATE_HZ, cyclic=cyclic)),
     )
 
 

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -165,3 +167,13 @@ def test_tracks_run_through_their_keys():
     assert values.shape == (61, 2)
     assert values[[0, 30, 60], 0] == pytest.approx([0.2, 0.9, 0.2], abs=0.02)
     assert not values[:, 1].any()
+
+
+def test_a_clip_has_the_tracks_of_its_rig():
+    rig = replace(ant_rig(), tracks=("glow", "hum"))
+    keys = [key(0.0, place=Place(), glow=0.2), key(0.5, glow=0.9)]
+    clip = make_rig_clip(
+        rig, "glow", keys, standing_still(1.0), stage_ends_s=(0, 0, 1, 1, 1), cyclic=True
+    )
+    assert clip.tracks.names == ("glow", "hum")
+    assert clip.tracks.of(["glow"])[30, 0] == pytest.approx(0.9, abs=0.02)
