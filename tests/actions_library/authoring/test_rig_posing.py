@@ -173,7 +173,13 @@ def test_a_clip_has_the_tracks_of_its_rig():
     rig = replace(ant_rig(), tracks=("glow", "hum"))
     keys = [key(0.0, place=Place(), glow=0.2), key(0.5, glow=0.9)]
     clip = make_rig_clip(
-        rig, "glow", keys, standing_still(1.0), stage_ends_s=(0, 0, 1, 1, 1), cyclic=True
+        rig,
+        "glow",
+        keys,
+        standing_still(1.0),
+        plants=standing_plants(rig),
+        stage_ends_s=(0, 0, 1, 1, 1),
+        cyclic=True,
     )
     assert clip.tracks.names == ("glow", "hum")
     assert clip.tracks.of(["glow"])[30, 0] == pytest.approx(0.9, abs=0.02)
