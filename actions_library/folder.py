@@ -139,7 +139,7 @@ def write_library(
             clip = clips[action.name]
             if clip.skeleton.joints != character.skeleton.joints:
                 raise LibraryError(f"clip {action.name!r}: expected the character's skeleton")
-            write_clip_file(fresh / files[action.name], clip, f"../{CHARACTER_FILE}")
+            write_clip_file(fresh / files[action.name], clip, character, f"../{CHARACTER_FILE}")
             if action.exemplar is not None:
                 (fresh / EXEMPLARS_FOLDER).mkdir(exist_ok=True)
                 write_exemplar(fresh / exemplar_files[action.name], action.exemplar)

@@ -33,7 +33,8 @@ from smd.recognition.recognizer import Recognizer
 from smd.score import Score
 from smd.transfer.path import ground_path
 from smd.transfer.scene import scene_scale
-from tests.naive.puppet import performance, waving_clip
+from tests.naive.puppet import waving_clip
+from tests.naive.shaped import shaped_performance
 
 
 def classes() -> Iterator[type[Any]]:
@@ -61,7 +62,7 @@ FREEZING = sorted({kind for kind in classes() if freezes(kind)}, key=lambda kind
 
 def roots() -> list[Any]:
     """Objects that hold, all together, one of every class that freezes."""
-    played = performance(seconds=1.0, rate_hz=24.0)
+    played = shaped_performance(seconds=1.0, rate_hz=24.0)
     library = smd.load_library()
     actor = played.actors[0]
     skeleton = actor.character.skeleton

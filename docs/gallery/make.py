@@ -65,7 +65,7 @@ def draw_efforts(library: Library, action: str, axes: tuple[str, str], path: Pat
             state = dict(zip(axes, values, strict=True))
             called = ", ".join(f"{axis} {value:+.0f}" for axis, value in state.items())
             played = expressive(study, Effort(**state), travels=library.action(action).travels)
-            write_clip_file(folder / "clip.usdc", played, library.character_file)
+            write_clip_file(folder / "clip.usdc", played, library.character, library.character_file)
             write_filmstrip(folder / "clip.usdc", folder / "strip.png", rows=1)
             row = Image.open(folder / "strip.png").convert("RGB")
             ImageDraw.Draw(row).rectangle((0, 0, 210, row.height), fill=(250, 250, 250))

@@ -12,6 +12,7 @@ from laban.frozen import Frozen
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.poses import Poses
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.doodle import Doodle
 from smd.errors import TransferError
 from smd.geometry.arrays import FloatArray, frozen_array
@@ -55,6 +56,7 @@ class Actor(Frozen):
         0 is the ground root in the world.
     phrases : what it performs, in time order, where that has names.
     doodles : what it was drawn with, if it was, in metres of the character's world.
+    tracks : weights of the character's shapes, and any other control, a value each frame.
     held : where the prop is in its hand; None where it is not held.
     """
 
@@ -63,6 +65,7 @@ class Actor(Frozen):
     poses: Poses
     phrases: tuple[Phrase, ...] = ()
     doodles: tuple[Doodle, ...] = ()
+    tracks: Tracks = NO_TRACKS
     held: HeldProp | None = None
 
     def __post_init__(self) -> None:
@@ -83,6 +86,7 @@ class Actor(Frozen):
                 f"{len(self.held.position_m)}"
             )
         object.__setattr__(self, "poses", Poses(rotation, translation))
+        object.__setattr__(self, "tracks", self.tracks.over(len(rotation), TransferError))
         object.__setattr__(self, "phrases", tuple(self.phrases))
         object.__setattr__(self, "doodles", tuple(self.doodles))
 

@@ -50,6 +50,7 @@ def retimed(clip: Clip, source_frame: FloatArray) -> Clip:
         translation_m=translation,
         stage_end_frames=retimed_ends(clip.stage_end_frames, source_frame),
         contacts=clip.contacts[nearest],
+        tracks=clip.tracks.at(source_frame),
     )
 
 

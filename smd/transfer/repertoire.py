@@ -17,7 +17,8 @@ from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.mass import Mass
-from smd.character.poses import Poses, sampled
+from smd.character.poses import Poses, sampled, sampled_tracks
+from smd.character.tracks import Tracks
 from smd.expression.body import body_of
 from smd.expression.expressive import expressive
 from smd.expression.study import Study, study_of
@@ -87,6 +88,10 @@ class Piece:
     def sampled(self, frame: FloatArray) -> Poses:
         """Return local poses at fractional frames ``(n,)``, the ground root at its origin."""
         return sampled(self.clip, frame)
+
+    def tracks_at(self, frame: FloatArray) -> Tracks:
+        """Return the tracks at fractional frames ``(n,)``."""
+        return sampled_tracks(self.clip, frame)
 
     def stands_at(self, frame: FloatArray) -> Footwork:
         """Return the foot contacts at fractional frames ``(n,)``: those of the nearest frame."""

@@ -13,7 +13,8 @@ import numpy as np
 
 from smd.character.clip import Clip
 from smd.character.poses import Poses, mixed
-from smd.geometry.arrays import FloatArray
+from smd.character.tracks import Tracks
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.easing import smootherstep
 from smd.transfer.ground_root import EXECUTION
 from smd.transfer.pacing import Pacing
@@ -107,30 +108,32 @@ def with_periods(clip: Clip, swing: Swing, count: int) -> Clip:
     """
     plays = [min(i, swing.periods - 1) for i in range(count)]
     leads = [after - 1 for after in plays[1:]] + [swing.periods - 1]
-    share = smootherstep(np.arange(swing.period) / swing.period)
-    own = Poses(clip.rotation_xyzw, clip.translation_m)
-    parts = [_part(own, 0, swing.first)]
-    contacts = [clip.contacts[: swing.first]]
-    for play, lead in zip(plays, leads, strict=True):
-        at, to = (swing.first + i * swing.period for i in (play, lead))
-        window, toward = (_part(own, first, first + swing.period) for first in (at, to))
-        parts.append(mixed(window, toward, share) if lead != play else window)
-        contacts.append(clip.contacts[at : at + swing.period])
-    parts.append(_part(own, swing.end, len(clip)))
-    contacts.append(clip.contacts[swing.end :])
+    once = np.arange(swing.period)
+    before, after = np.arange(swing.first), np.arange(swing.end, len(clip))
+    own, toward = (
+        np.concatenate([before, *(swing.first + i * swing.period + once for i in which), after])
+        for which in (plays, leads)
+    )
+    share = np.zeros(len(own))
+    share[swing.first : len(own) - len(after)] = np.tile(smootherstep(once / swing.period), count)
+    played = Poses(clip.rotation_xyzw, clip.translation_m)
+    poses = mixed(_at(played, own), _at(played, toward), share)
+    value = clip.tracks.value[own]
+    value = value + share[:, None] * (clip.tracks.value[toward] - value)
     ends = clip.stage_end_frames.copy()
     ends[ends >= swing.end] += (count - swing.periods) * swing.period
     return replace(
         clip,
-        rotation_xyzw=np.concatenate([part.rotation_xyzw for part in parts]),
-        translation_m=np.concatenate([part.translation_m for part in parts]),
-        contacts=np.concatenate(contacts),
+        rotation_xyzw=poses.rotation_xyzw,
+        translation_m=poses.translation_m,
+        contacts=clip.contacts[own],
         stage_end_frames=ends,
+        tracks=Tracks(clip.tracks.names, value),
     )
 
 
-def _part(poses: Poses, first: int, end: int) -> Poses:
-    return Poses(poses.rotation_xyzw[first:end], poses.translation_m[first:end])
+def _at(poses: Poses, frames: IntArray) -> Poses:
+    return Poses(poses.rotation_xyzw[frames], poses.translation_m[frames])
 
 
 def at_own_tempo(pacing: Pacing, swing: Swing) -> tuple[int, Pacing]:
