@@ -69,7 +69,7 @@ def read_animation(
         only = np.array(times or [0.0])
         return None, _weights(source, names, only).among(wanted), []
     where = str(prim.GetPath())
-    rate_hz, codes = _codes(where, stage, times, len(joints) + len(names))
+    rate_hz, codes = frame_codes(where, stage, times, len(joints) + len(names))
     own = texts(source.GetJointsAttr())
     moved = _Moved.read(source, own, codes)
     if moved.scale is not None and np.abs(moved.scale).min(initial=1.0) < 1e-6:
@@ -138,7 +138,7 @@ def _parts_of(source: UsdSkel.Animation) -> tuple[Usd.Attribute, Usd.Attribute, 
     return source.GetTranslationsAttr(), source.GetRotationsAttr(), source.GetScalesAttr()
 
 
-def _codes(
+def frame_codes(
     where: str, stage: Usd.Stage, times: Sequence[float], joints: int
 ) -> tuple[float, FloatArray]:
     """Return the rate, and the time code of each frame from the first sample to the last."""
