@@ -6,9 +6,10 @@ others, and USD evaluates what follows: transforms, points, whatever its schemas
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -96,12 +97,12 @@ class UsdRig:
 
     Attributes
     ----------
-    animation : (n, d) the file's own poses, a frame each.
+    animations : the file's own poses ``(n, d)``, the only ones, by the name of the file.
     rate_hz : its frames a second.
     notes : what the file animates that is no control, one line each.
     """
 
-    def __init__(self, stage: Usd.Stage, change: FloatArray) -> None:
+    def __init__(self, stage: Usd.Stage, name: str, change: FloatArray) -> None:
         self._stage, self._change = stage, change
         found, self.notes = _animated(stage)
         times = sorted({t for each in found for t in each.attribute.GetTimeSamples()})
@@ -112,17 +113,28 @@ class UsdRig:
         if len(codes) * len(names) > MOST_VALUES:
             most = f"at most {MOST_VALUES} frames times controls"
             raise Fault("", most, len(codes) * len(names))
-        self.animation = np.concatenate([_over_time(each, codes) for each in found], axis=1)
+        poses = np.concatenate([_over_time(each, codes) for each in found], axis=1)
+        poses.flags.writeable = False
+        self.animations: Mapping[str, FloatArray] = MappingProxyType({name: poses})
         at_rest = [each.numbers(None) for each in found]
         starts = np.cumsum([0, *(len(each.names) for each in found)])
-        rest = self.animation[0].copy()
+        rest = poses[0].copy()
         for value, start in zip(at_rest, starts, strict=False):
             if value is not None and np.isfinite(value).all():
                 rest[start : start + len(value)] = value
-        every = np.concatenate([self.animation, rest[None]])
+        every = np.concatenate([poses, rest[None]])
         self._controls = Controls(tuple(names), rest, every.min(axis=0), every.max(axis=0))
         self._code = float(codes[0])
-        self._meshes, self._triangles, self._counts = _meshes(stage, self._code)
+        self._meshes, points, self._triangles = _meshes(stage, self._code)
+        self._points = np.concatenate(points)
+        counts = [len(own) for own in points]
+        self._owner = np.repeat(np.arange(len(counts)), counts)
+        ends = np.cumsum(counts).tolist()
+        self._formed = [  # those whose points change, and where these are among all
+            (mesh, slice(end - count, end))
+            for mesh, count, end in zip(self._meshes, counts, ends, strict=True)
+            if mesh.GetPointsAttr().ValueMightBeTimeVarying()
+        ]
         self._specs = [
             (_override(stage, each.attribute), each, slice(start, start + len(each.names)))
             for each, start in zip(found, starts.tolist(), strict=False)
@@ -141,7 +153,7 @@ class UsdRig:
     def surface_m(self, poses: ArrayLike) -> FloatArray:
         """Return the points of its meshes, as `smd.character.rig.Rig.surface_m` does."""
         given = self._controls.poses(poses)
-        found = np.empty((len(given), sum(self._counts), 3))
+        found = np.empty((len(given), len(self._points), 3))
         for row, pose in zip(found, given, strict=True):
             with Sdf.ChangeBlock():
                 for spec, animated, columns in self._specs:
@@ -152,15 +164,17 @@ class UsdRig:
     def _evaluated(self) -> FloatArray:
         """Return the points of all meshes ``(p, 3)`` as the stage has them now."""
         cache = UsdGeom.XformCache(self._code)
-        places = []
-        for mesh, count in zip(self._meshes, self._counts, strict=True):
+        for mesh, rows in self._formed:
             points = numbers(mesh.GetPointsAttr(), 3, time=self._code)
+            count = rows.stop - rows.start
             if points is None or len(points) != count or not np.isfinite(points).all():
                 got = 0 if points is None else len(points)
                 raise CharacterError(f"{mesh.GetPath()}: expected {count} finite points, got {got}")
-            matrix = np.array(cache.GetLocalToWorldTransform(mesh.GetPrim()))  # of rows
-            places.append((points @ matrix[:3, :3] + matrix[3, :3]) @ self._change.T)
-        return np.concatenate(places)
+            self._points[rows] = points
+        world = np.array([cache.GetLocalToWorldTransform(m.GetPrim()) for m in self._meshes])
+        own = world[self._owner]  # of rows
+        placed = np.einsum("pc,pcd->pd", self._points, own[:, :3, :3]) + own[:, 3, :3]
+        return np.asarray(placed @ self._change.T)
 
 
 def read_usd_rig(path: Path | str, *, up: str | None = None, unit_m: float | None = None) -> UsdRig:
@@ -192,7 +206,7 @@ def read_usd_rig(path: Path | str, *, up: str | None = None, unit_m: float | Non
             check_used(path, stage)
             axis = up or str(UsdGeom.GetStageUpAxis(stage)).lower()
             unit = UsdGeom.GetStageMetersPerUnit(stage) if unit_m is None else unit_m
-            return UsdRig(stage, to_y_up(axis) * checked_unit(unit))
+            return UsdRig(stage, path.stem, to_y_up(axis) * checked_unit(unit))
         except (Tf.ErrorException, UnicodeDecodeError) as error:
             raise Fault("", "a USD file", first_line(error)) from None
 
@@ -229,13 +243,12 @@ def _over_time(animated: _Animated, codes: FloatArray) -> FloatArray:
     return np.array(rows)
 
 
-def _meshes(
-    stage: Usd.Stage, code: float
-) -> tuple[Sequence[UsdGeom.Mesh], IntArray, Sequence[int]]:
-    """Return the meshes that are seen, their faces, and how many points each has."""
+def _meshes(stage: Usd.Stage, code: float) -> tuple[list[UsdGeom.Mesh], list[FloatArray], IntArray]:
+    """Return the meshes that are seen, the points of each, and the faces of all."""
     meshes: list[UsdGeom.Mesh] = []
+    places: list[FloatArray] = []
     faces: list[IntArray] = []
-    counts: list[int] = []
+    count = 0
     cache = UsdGeom.XformCache(code)
     for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()):
         if not prim.IsA(UsdGeom.Mesh) or not is_seen(UsdGeom.Imageable(prim)):
@@ -248,12 +261,13 @@ def _meshes(
         if not len(triangles):
             continue
         mirrored = np.linalg.det(np.array(cache.GetLocalToWorldTransform(prim))[:3, :3]) < 0.0
-        faces.append((triangles[:, ::-1] if mirrored else triangles) + sum(counts))
+        faces.append((triangles[:, ::-1] if mirrored else triangles) + count)
         meshes.append(mesh)
-        counts.append(len(points))
+        places.append(points)
+        count += len(points)
     if not meshes:
         raise Fault("", "a mesh that is seen", "none")
-    return meshes, np.concatenate(faces), counts
+    return meshes, places, np.concatenate(faces)
 
 
 def _override(stage: Usd.Stage, attribute: Usd.Attribute) -> Sdf.AttributeSpec:

@@ -77,8 +77,8 @@ def plain_surface_m(path: Path, code: float) -> np.ndarray:
 def test_the_file_s_own_animation_is_what_its_poses_show(tmp_path):
     path = written(tmp_path)
     rig = read_usd_rig(path)
-    assert (len(rig.animation), rig.rate_hz) == (11, 10.0)
-    surface = rig.surface_m(rig.animation)
+    assert (len(rig.animations["lamp"]), rig.rate_hz) == (11, 10.0)
+    surface = rig.surface_m(rig.animations["lamp"])
     for code in range(11):
         np.testing.assert_allclose(surface[code], plain_surface_m(path, code), atol=1e-6)
     assert np.ptp(surface, axis=0).max() > 0.02
@@ -112,9 +112,9 @@ def test_controls_have_the_file_s_rest_and_ranges(tmp_path):
 def test_one_rig_leaves_the_file_and_another_rig_alone(tmp_path):
     path = written(tmp_path)
     one, other = read_usd_rig(path), read_usd_rig(path)
-    before = other.surface_m(other.animation[:1])
-    one.surface_m(one.animation[-1:])
-    assert np.array_equal(other.surface_m(other.animation[:1]), before)
+    before = other.surface_m(other.animations["lamp"][:1])
+    one.surface_m(one.animations["lamp"][-1:])
+    assert np.array_equal(other.surface_m(other.animations["lamp"][:1]), before)
     assert path.read_text() == LAMP
 
 
