@@ -16,7 +16,7 @@ from pxr import Usd, UsdGeom
 from actions_library.folder import load_library
 from actions_library.importers.rigs import read_rig
 from smd.character.character_rig import CharacterRig
-from smd.character.rig import Rig
+from smd.character.rig import ControlRig
 from smd.geometry.arrays import FloatArray
 
 CONTROLS, POSES, TIMES = 742, 100, 5
@@ -37,14 +37,14 @@ def write_many_controls(path: Path, count: int) -> None:
     stage.GetRootLayer().Export(str(path))
 
 
-def random_poses(rig: Rig, count: int) -> FloatArray:
+def random_poses(rig: ControlRig, count: int) -> FloatArray:
     """Return poses within the ranges of a rig's controls."""
     controls = rig.controls
     rng = np.random.default_rng(0)
     return rng.uniform(controls.low, controls.high, size=(count, len(controls)))
 
 
-def told(name: str, rig: Rig) -> str:
+def told(name: str, rig: ControlRig) -> str:
     """Return what surfaces of a rig cost, in words."""
     poses, spent = random_poses(rig, POSES), []
     for _ in range(TIMES):

@@ -21,6 +21,7 @@ import laban
 import smd
 from actions_library.library import Library
 from laban.frozen import Frozen
+from smd.acting.grip import with_props_held
 from smd.acting.terrain import Terrain
 from smd.cast import Cast
 from smd.character.ik import limb_of
@@ -91,6 +92,7 @@ def roots() -> list[Any]:
         Score((), "made up"),
         mass_of(skeleton),
         Controls(("swing",), np.zeros(1), -np.ones(1), np.ones(1)),
+        with_props_held(played.actors),
     ]
 
 

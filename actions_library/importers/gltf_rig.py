@@ -81,7 +81,7 @@ class GltfRig:
         return self._triangles
 
     def surface_m(self, poses: ArrayLike) -> FloatArray:
-        """Return the points of its meshes, as `smd.character.rig.Rig.surface_m` does."""
+        """Return the points of its meshes, as `smd.character.rig.ControlRig.surface_m` does."""
         given = self._controls.poses(poses)
         count = sum(len(piece.points) for piece in self._pieces)
         found = np.empty((len(given), count, 3))

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Protocol
 
 from laban.faults import Fault
-from smd.character.rig import Rig
+from smd.character.rig import ControlRig
 from smd.errors import ImportedFileError
 from smd.geometry.arrays import FloatArray
 
 
-class FileRig(Rig, Protocol):
+class FileRig(ControlRig, Protocol):
     """A rig that came from a file, with the poses that the file has."""
 
     @property

@@ -151,7 +151,7 @@ class UsdRig:
         return self._triangles
 
     def surface_m(self, poses: ArrayLike) -> FloatArray:
-        """Return the points of its meshes, as `smd.character.rig.Rig.surface_m` does."""
+        """Return the points of its meshes, as `smd.character.rig.ControlRig.surface_m` does."""
         given = self._controls.poses(poses)
         found = np.empty((len(given), len(self._points), 3))
         for row, pose in zip(found, given, strict=True):

@@ -115,7 +115,7 @@ class CharacterRig:
         return Poses(rotation, translation), Tracks(self.character.shapes, given[:, turning + 3 :])
 
     def surface_m(self, poses: ArrayLike) -> FloatArray:
-        """Return the points of its skin, mesh by mesh, as `smd.character.rig.Rig.surface_m`."""
+        """Return the points of its skin, mesh by mesh, as `ControlRig.surface_m` does."""
         posed, tracks = self.posed(poses)
         skeleton = self.character.skeleton
         world = forward_kinematics(skeleton, *posed)

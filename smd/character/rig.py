@@ -1,4 +1,4 @@
-"""Rig: named controls, and the surface that they move.
+"""Rigs: named controls, and the surface that they move.
 
 Whoever works with poses as vectors of numbers, of a character or of anything else, needs no more
 than this of it.
@@ -59,7 +59,7 @@ class Controls(Frozen):
         return frozen_array("poses", values, (None, len(self)), CharacterError)
 
 
-class Rig(Protocol):
+class ControlRig(Protocol):
     """What can be posed by numbers and has a surface of one topology."""
 
     @property
@@ -125,7 +125,7 @@ class FunctionRig:
         return self._triangles
 
     def surface_m(self, poses: ArrayLike) -> FloatArray:
-        """Return the points of its surface, as `Rig.surface_m` does."""
+        """Return the points of its surface, as `ControlRig.surface_m` does."""
         given = self._controls.poses(poses)
         shape = (len(given), self._count, 3)
         return frozen_array("surface", self._function(given), shape, CharacterError)

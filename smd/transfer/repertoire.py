@@ -28,6 +28,7 @@ from smd.transfer.body_work import BodyWork, body_work
 from smd.transfer.gait import Gait, fastest_m_s, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_root
 from smd.transfer.pacing import near_share
+from smd.transfer.swings import Swing, expressed, swing_of
 
 NO_WAY_M = 0.05
 """Travel of a clip below which it has no direction of its own."""
@@ -58,6 +59,7 @@ class Piece:
     near : share of its transition after which its pose is near to its last one.
     airborne : the part of it that flies, if it plays once and one does.
     body : what it asks of the body's mass, where that counts.
+    swing : the part of it that repeats itself, if it plays once, in place, and one does.
     """
 
     clip: Clip
@@ -70,6 +72,7 @@ class Piece:
     near: float
     airborne: Airborne | None
     body: BodyWork | None
+    swing: Swing | None = None
 
     @property
     def direction_rad(self) -> float:
@@ -315,10 +318,16 @@ def piece_of(
     body = None
     if mass is not None:
         body = body_work(clip, mass.mean_m(place_m[:, len(feet) + 1 :]), travels=travels)
+    swing = None
     if neutral is not None:
         near = neutral.near
+        if neutral.swing is not None:
+            swing = expressed(neutral.swing, neutral.clip, clip)
     else:
-        near = near_share(clip, forward_kinematics(clip.skeleton, *local)[1])
+        everywhere_m = forward_kinematics(clip.skeleton, *local)[1]
+        near = near_share(clip, everywhere_m)
+        if not (travels or clip.cyclic):
+            swing = swing_of(clip, everywhere_m)
     return Piece(
         clip=clip,
         travels=travels,
@@ -330,6 +339,7 @@ def piece_of(
         near=near,
         airborne=_airborne(clip, stands, place_m[:, len(feet), 1]),
         body=body,
+        swing=swing,
     )
 
 

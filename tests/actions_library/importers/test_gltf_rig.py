@@ -8,7 +8,7 @@ import pytest
 from actions_library.importers import import_file
 from actions_library.importers.gltf_rig import read_gltf_rig
 from smd.character.kinematics import forward_kinematics
-from smd.character.rig import Rig
+from smd.character.rig import ControlRig
 from smd.character.skinning import skin_points
 from smd.errors import ImportedFileError
 from smd.geometry.rotations import quaternion_about, rotate
@@ -43,7 +43,7 @@ def lamp() -> dict:
 
 
 def test_poses_place_the_points_as_the_nodes_say(tmp_path):
-    rig: Rig = read_gltf_rig(written(tmp_path, lamp()))
+    rig: ControlRig = read_gltf_rig(written(tmp_path, lamp()))
     assert rig.controls.names == (
         *(f"foot.translation[{k}]" for k in range(3)),
         *(f"arm.rotation[{k}]" for k in range(4)),

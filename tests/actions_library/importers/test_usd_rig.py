@@ -9,7 +9,7 @@ import pytest
 from pxr import Usd, UsdGeom
 
 from actions_library.importers.usd_rig import read_usd_rig
-from smd.character.rig import Rig
+from smd.character.rig import ControlRig
 from smd.errors import CharacterError, ImportedFileError
 
 LAMP = """#usda 1.0
@@ -86,7 +86,7 @@ def test_the_file_s_own_animation_is_what_its_poses_show(tmp_path):
 
 def test_a_pose_of_one_s_own_is_evaluated(tmp_path):
     """A quarter turn about X takes the shade's far edge from +Y up to +Z, our +Y."""
-    rig: Rig = read_usd_rig(written(tmp_path))
+    rig: ControlRig = read_usd_rig(written(tmp_path))
     pose = dict(zip(rig.controls.names, rig.controls.rest, strict=True))
     pose["/Lamp/Arm.xformOp:rotateX"] = 90.0
     pose["/Lamp.xformOp:translate[0]"] = 100.0

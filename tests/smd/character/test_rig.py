@@ -8,7 +8,7 @@ import pytest
 from smd.character.character_rig import CharacterRig
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses
-from smd.character.rig import Controls, FunctionRig, Rig
+from smd.character.rig import ControlRig, Controls, FunctionRig
 from smd.character.skinning import skin_points
 from smd.character.tracks import Tracks
 from smd.errors import CharacterError
@@ -29,7 +29,7 @@ def lamp(poses: np.ndarray) -> np.ndarray:
 
 
 def test_a_function_is_a_rig():
-    rig: Rig = FunctionRig(LAMP, TRIANGLE, lamp)
+    rig: ControlRig = FunctionRig(LAMP, TRIANGLE, lamp)
     surface = rig.surface_m([[1.5, 0.25], rig.controls.rest])
     assert surface.shape == (2, 3, 3)
     assert surface[:, 2].tolist() == [[0.25, 1.5, 0.0], [0.0, 1.0, 0.0]]
