@@ -118,7 +118,7 @@ def adopted_clip(
         except CharacterError as error:
             raise ImportedFileError(f"{imported.path}: {error}") from error
     cyclic = repeats(world_q) if cyclic is None else cyclic
-    tracks = animation.tracks.among(character.shapes)
+    tracks = animation.tracks.among(character.shapes).beside(animation.controls)
     if cyclic and wants_first_frame(world_q):
         tracks = tracks.at(np.append(np.arange(len(world_q)), 0.0))
         step = (pelvis[-1] - pelvis[0]) / (len(pelvis) - 1) * [1.0, 0.0, 1.0]

@@ -10,6 +10,7 @@ from pxr import Usd, UsdGeom, UsdSkel
 
 from actions_library.importers.imported import Animation, check_poses, rigid
 from actions_library.importers.usd_values import numbers, texts
+from actions_library.usd_skel import CONTROL_VALUES, CONTROLS
 from laban.faults import Fault
 from smd.character.tracks import NO_TRACKS, Tracks
 from smd.geometry.arrays import FloatArray
@@ -89,7 +90,10 @@ def read_animation(
     rotation = sign_continuous(np.concatenate([q for q, _ in blocks]))
     translation = np.concatenate([t for _, t in blocks])
     weights = _weights(source, names, codes).among(wanted)
-    return Animation(prim.GetName(), rate_hz, rotation, translation, weights), NO_TRACKS, []
+    made = Animation(
+        prim.GetName(), rate_hz, rotation, translation, weights, _controls(prim, codes)
+    )
+    return made, NO_TRACKS, []
 
 
 def chained(local: FloatArray, parents: Sequence[int]) -> FloatArray:
@@ -188,4 +192,13 @@ def _weights(source: UsdSkel.Animation, names: Sequence[str], codes: FloatArray)
     """Return the weights of blend shapes at time codes; none where the file has none."""
     attribute = source.GetBlendShapeWeightsAttr()
     found = _over_time(attribute, codes, len(names)) if names else None
+    return NO_TRACKS if found is None else Tracks(tuple(names), found)
+
+
+def _controls(prim: Usd.Prim, codes: FloatArray) -> Tracks:
+    """Return the controls that a file of ours has beside the weights; none in others."""
+    if not prim.HasAttribute(CONTROLS):
+        return NO_TRACKS
+    names = texts(prim.GetAttribute(CONTROLS))
+    found = _over_time(prim.GetAttribute(CONTROL_VALUES), codes, len(names)) if names else None
     return NO_TRACKS if found is None else Tracks(tuple(names), found)
