@@ -114,6 +114,9 @@ def sections() -> list[Section]:
                 "smd.character.poses": ["Poses"],
                 "smd.character.tracks": ["Tracks"],
                 "smd.character.kinematics": ["forward_kinematics"],
+                "smd.character.rig": ["ControlRig", "Controls", "FunctionRig"],
+                "smd.character.character_rig": ["CharacterRig"],
+                "actions_library.importers.rigs": ["FileRig", "read_rig"],
             },
         ),
         Section(

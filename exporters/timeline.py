@@ -369,7 +369,7 @@ def _draw_tracks(axes: Any, tracks: Tracks, performance: Performance) -> None:
     axes.set_ylim(low - 0.08, high + 0.08)
     axes.tick_params(left=True, labelleft=True)
     for rank, k in enumerate(most_first.tolist()):
-        label = tracks.names[k] if rank < _NAMED_TRACKS else None
+        label = _short(tracks.names[k]) if rank < _NAMED_TRACKS else None
         axes.plot(time_s, tracks.value[:, k], color=f"C{rank % 10}", lw=1.0, label=label)
     axes.legend(
         loc="center left",
@@ -380,6 +380,11 @@ def _draw_tracks(axes: Any, tracks: Tracks, performance: Performance) -> None:
         labelspacing=0.1,
         borderaxespad=0.3,
     )
+
+
+def _short(name: str) -> str:
+    """Return a name that fits beside the lanes."""
+    return name if len(name) <= 10 else f"{name[:9]}…"
 
 
 def _mark_dropouts(axes: dict[str, Any], dropouts: Sequence[Dropout]) -> None:

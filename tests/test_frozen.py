@@ -26,6 +26,7 @@ from smd.acting.terrain import Terrain
 from smd.cast import Cast
 from smd.character.ik import limb_of
 from smd.character.mass import mass_of
+from smd.character.rig import Controls
 from smd.recognition.automaton import compile_automaton
 from smd.recognition.compiled_actions import compile_actions
 from smd.recognition.lever import LeverArm
@@ -90,6 +91,7 @@ def roots() -> list[Any]:
         compile_automaton(pattern),
         Score((), "made up"),
         mass_of(skeleton),
+        Controls(("swing",), np.zeros(1), -np.ones(1), np.ones(1)),
         with_props_held(played.actors),
     ]
 

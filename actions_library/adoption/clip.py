@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -109,7 +109,7 @@ def adopted_clip(
     skeleton = character.skeleton
     same = _same_joints(imported.skeleton, skeleton, character.height_m)
     rest = rest_pose(skeleton)
-    target = body_plan(skeleton.joints, skeleton.parents.tolist(), rest[1], front=(0.0, 0.0, 1.0))
+    target = _plan_below_root(skeleton, rest[1])
     if same is not None:
         world_q, pelvis = _of_same(world_q, world_p, skeleton, same, imported, target)
     else:
@@ -118,7 +118,7 @@ def adopted_clip(
         except CharacterError as error:
             raise ImportedFileError(f"{imported.path}: {error}") from error
     cyclic = repeats(world_q) if cyclic is None else cyclic
-    tracks = animation.tracks.among(character.shapes)
+    tracks = animation.tracks.among(character.shapes).beside(animation.controls)
     if cyclic and wants_first_frame(world_q):
         tracks = tracks.at(np.append(np.arange(len(world_q)), 0.0))
         step = (pelvis[-1] - pelvis[0]) / (len(pelvis) - 1) * [1.0, 0.0, 1.0]
@@ -164,6 +164,25 @@ def adopted_clip(
         leg_m,
     )
     return Adopted(clip, ground, same is not None, animation.tracks.without(character.shapes).names)
+
+
+def _plan_below_root(skeleton: Skeleton, rest_m: FloatArray) -> BodyPlan:
+    """Return a character's body plan; its ground root holds the body, and is no part of it.
+
+    A body without legs is held by its skeleton's first joint. Below a ground root, that is the
+    joint after it.
+    """
+    parents = skeleton.parents.tolist()
+    plan = body_plan(skeleton.joints, parents, rest_m, front=(0.0, 0.0, 1.0))
+    if plan.pelvis != 0 or parents.count(0) != 1:
+        return plan
+    pelvis = parents.index(0)
+    return replace(
+        plan,
+        root=(0, pelvis),
+        spine=tuple(joint for joint in plan.spine if joint != pelvis),
+        chest=plan.chest or pelvis,
+    )
 
 
 class _Root(NamedTuple):
@@ -320,7 +339,7 @@ def _local(
     for joint in plan.root[:-1]:
         world[:, joint] = multiply(root.rotation_xyzw, rest[0][joint])
     for joint, parent in enumerate(skeleton.parents.tolist()):
-        if joint in plan.root[:-1]:
+        if parent < 0 or joint in plan.root[:-1]:
             continue
         back = inverse(world[:, parent])
         rotation[:, joint] = multiply(back, world[:, joint])

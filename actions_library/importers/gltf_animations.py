@@ -32,7 +32,7 @@ _BLOCK = 100_000  # poses that become matrices at once
 
 
 @dataclass(frozen=True, eq=False)
-class _Track:
+class Channel:
     """A channel: what it moves, and its keys."""
 
     node: int
@@ -68,12 +68,12 @@ def read_animations(
     for i in range(count):
         where = f"animations[{i}]"
         name = str(file.item("animations", i).get("name") or f"animation_{i}")
-        tracks = _tracks(file, where, i, {*chain}, shapes)
+        tracks = channels_of(file, where, i, {*chain}, shapes)
         if not tracks:
             notes.append(f"animation {name!r} moves no joint: left out")
             continue
         start_s, end_s = min(t.times[0] for t in tracks), max(t.times[-1] for t in tracks)
-        rate_hz = _rate_hz([track.times for track in tracks])
+        rate_hz = usual_rate_hz([track.times for track in tracks])
         frames = max(np.round((end_s - start_s) * rate_hz), 1.0) + 1.0
         check_poses(where, frames, len(chain) + len(shapes.names), poses)
         poses += int(frames) * (len(chain) + len(shapes.names))
@@ -88,9 +88,11 @@ def read_animations(
     return animations, notes
 
 
-def _tracks(file: GltfFile, where: str, i: int, chain: set[int], shapes: Shapes) -> list[_Track]:
+def channels_of(
+    file: GltfFile, where: str, i: int, chain: set[int], shapes: Shapes
+) -> list[Channel]:
     """Return the channels of an animation that move joints, nodes above them, or shapes."""
-    found: dict[tuple[int, str], _Track] = {}
+    found: dict[tuple[int, str], Channel] = {}
     for sampler, target in file.channels(i):
         path = target["path"]
         if "node" not in target or path not in {*PARTS, "weights"}:
@@ -110,7 +112,7 @@ def _tracks(file: GltfFile, where: str, i: int, chain: set[int], shapes: Shapes)
 
 def _track(
     file: GltfFile, where: str, sampler: dict[str, Any], node: int, path: str, width: int
-) -> _Track:
+) -> Channel:
     """Return a channel whose values are so wide, its keys checked."""
     manner = sampler.get("interpolation", "LINEAR")
     if manner not in ("LINEAR", "STEP", "CUBICSPLINE"):
@@ -129,11 +131,11 @@ def _track(
     if (np.diff(times) <= 0.0).any():
         bad = float(times[int(np.argmax(np.diff(times) <= 0.0)) + 1])
         raise Fault(f"{where}, node {node}", "times that increase", f"{bad:g} s")
-    return _Track(node, path, times, values, manner)
+    return Channel(node, path, times, values, manner)
 
 
 def _moved(
-    nodes: Nodes, chain: Sequence[int], tracks: Sequence[_Track], at_s: FloatArray
+    nodes: Nodes, chain: Sequence[int], tracks: Sequence[Channel], at_s: FloatArray
 ) -> dict[str, FloatArray]:
     """Return the parts of nodes' transforms at some times, ``(n, k, c)`` each."""
     local = {
@@ -172,7 +174,7 @@ def _posed(
     return sign_continuous(rotation) if len(blocks) > 1 else rotation, translation
 
 
-def _weights(shapes: Shapes, tracks: Sequence[_Track], at_s: FloatArray) -> Tracks:
+def _weights(shapes: Shapes, tracks: Sequence[Channel], at_s: FloatArray) -> Tracks:
     """Return the weights of all shapes at some times; none where all rest at 0."""
     moving = [track for track in tracks if track.path == "weights"]
     if not moving and not shapes.rest.any():
@@ -184,7 +186,7 @@ def _weights(shapes: Shapes, tracks: Sequence[_Track], at_s: FloatArray) -> Trac
     return Tracks(shapes.names, weights)
 
 
-def _rate_hz(times: list[FloatArray]) -> float:
+def usual_rate_hz(times: list[FloatArray]) -> float:
     """Return the rate nearest to the usual spacing of keys."""
     steps = [np.diff(t) for t in times if len(t) > 2]
     if not steps:

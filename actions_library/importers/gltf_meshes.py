@@ -84,7 +84,7 @@ def read_meshes(
             raise Fault(f"meshes[{item['mesh']}]", "a list of primitives", "none")
         for k, primitive in enumerate(primitives):
             where = f"meshes[{item['mesh']}].primitives[{k}]"
-            geometry = _geometry(file, primitive, where)
+            geometry = geometry_of(file, primitive, where)
             if geometry is None:
                 continue
             points, triangles = geometry
@@ -200,7 +200,7 @@ def _encoded(linear: FloatArray) -> FloatArray:
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-def _geometry(file: GltfFile, primitive: Any, where: str) -> tuple[FloatArray, IntArray] | None:
+def geometry_of(file: GltfFile, primitive: Any, where: str) -> tuple[FloatArray, IntArray] | None:
     """Return the points and triangles of a primitive; None where it draws lines or points."""
     if not isinstance(primitive, dict) or not isinstance(primitive.get("attributes"), dict):
         raise Fault(where, "attributes", "none")

@@ -56,6 +56,7 @@ class Animation:
     rotation_xyzw : (n, j, 4) of each joint in its parent's frame, or the world's for a root.
     translation_m : (n, j, 3).
     tracks : (n, …) weights of shapes.
+    controls : (n, …) other tracks, which files of our own may have.
     """
 
     name: str
@@ -63,6 +64,7 @@ class Animation:
     rotation_xyzw: FloatArray
     translation_m: FloatArray
     tracks: Tracks = NO_TRACKS
+    controls: Tracks = NO_TRACKS
 
     @property
     def duration_s(self) -> float:
@@ -140,6 +142,7 @@ class Imported:
             rotation_xyzw=animation.rotation_xyzw[rows],
             translation_m=animation.translation_m[rows],
             tracks=animation.tracks.at(frames),
+            controls=animation.controls.at(frames),
         )
 
 

@@ -10,6 +10,7 @@ from pxr import Usd, UsdGeom, UsdSkel
 
 from actions_library.importers.imported import Animation, check_poses, rigid
 from actions_library.importers.usd_values import numbers, texts
+from actions_library.usd_skel import CONTROL_VALUES, CONTROLS
 from laban.faults import Fault
 from smd.character.tracks import NO_TRACKS, Tracks
 from smd.geometry.arrays import FloatArray
@@ -69,7 +70,7 @@ def read_animation(
         only = np.array(times or [0.0])
         return None, _weights(source, names, only).among(wanted), []
     where = str(prim.GetPath())
-    rate_hz, codes = _codes(where, stage, times, len(joints) + len(names))
+    rate_hz, codes = frame_codes(where, stage, times, len(joints) + len(names))
     own = texts(source.GetJointsAttr())
     moved = _Moved.read(source, own, codes)
     if moved.scale is not None and np.abs(moved.scale).min(initial=1.0) < 1e-6:
@@ -89,7 +90,10 @@ def read_animation(
     rotation = sign_continuous(np.concatenate([q for q, _ in blocks]))
     translation = np.concatenate([t for _, t in blocks])
     weights = _weights(source, names, codes).among(wanted)
-    return Animation(prim.GetName(), rate_hz, rotation, translation, weights), NO_TRACKS, []
+    made = Animation(
+        prim.GetName(), rate_hz, rotation, translation, weights, _controls(prim, codes)
+    )
+    return made, NO_TRACKS, []
 
 
 def chained(local: FloatArray, parents: Sequence[int]) -> FloatArray:
@@ -138,7 +142,7 @@ def _parts_of(source: UsdSkel.Animation) -> tuple[Usd.Attribute, Usd.Attribute, 
     return source.GetTranslationsAttr(), source.GetRotationsAttr(), source.GetScalesAttr()
 
 
-def _codes(
+def frame_codes(
     where: str, stage: Usd.Stage, times: Sequence[float], joints: int
 ) -> tuple[float, FloatArray]:
     """Return the rate, and the time code of each frame from the first sample to the last."""
@@ -188,4 +192,13 @@ def _weights(source: UsdSkel.Animation, names: Sequence[str], codes: FloatArray)
     """Return the weights of blend shapes at time codes; none where the file has none."""
     attribute = source.GetBlendShapeWeightsAttr()
     found = _over_time(attribute, codes, len(names)) if names else None
+    return NO_TRACKS if found is None else Tracks(tuple(names), found)
+
+
+def _controls(prim: Usd.Prim, codes: FloatArray) -> Tracks:
+    """Return the controls that a file of ours has beside the weights; none in others."""
+    if not prim.HasAttribute(CONTROLS):
+        return NO_TRACKS
+    names = texts(prim.GetAttribute(CONTROLS))
+    found = _over_time(prim.GetAttribute(CONTROL_VALUES), codes, len(names)) if names else None
     return NO_TRACKS if found is None else Tracks(tuple(names), found)

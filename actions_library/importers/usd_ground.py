@@ -53,10 +53,10 @@ def _read(stage: Usd.Stage) -> tuple[FloatArray, IntArray]:
     cache = UsdGeom.XformCache()
     points, triangles, count = [], [], 0
     for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()):
-        if not prim.IsA(UsdGeom.Mesh) or not _is_seen(UsdGeom.Imageable(prim)):
+        if not prim.IsA(UsdGeom.Mesh) or not is_seen(UsdGeom.Imageable(prim)):
             continue
         matrix = np.array(cache.GetLocalToWorldTransform(prim))  # of rows
-        own, faces = _mesh(UsdGeom.Mesh(prim))
+        own, faces = mesh_of(UsdGeom.Mesh(prim))
         points.append((own @ matrix[:3, :3] + matrix[3, :3]) @ change.T)
         mirrored = np.linalg.det(matrix[:3, :3]) < 0.0
         triangles.append((faces[:, ::-1] if mirrored else faces) + count)
@@ -66,15 +66,16 @@ def _read(stage: Usd.Stage) -> tuple[FloatArray, IntArray]:
     return np.concatenate(points), np.concatenate(triangles)
 
 
-def _is_seen(prim: UsdGeom.Imageable) -> bool:
+def is_seen(prim: UsdGeom.Imageable) -> bool:
+    """Return whether a prim is visible, and meant to be."""
     hidden = prim.ComputeVisibility() == UsdGeom.Tokens.invisible
     return not hidden and prim.ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
 
 
-def _mesh(mesh: UsdGeom.Mesh) -> tuple[FloatArray, IntArray]:
-    """Return a mesh's points and its faces as triangles."""
+def mesh_of(mesh: UsdGeom.Mesh, code: float | None = None) -> tuple[FloatArray, IntArray]:
+    """Return a mesh's points, by default or at a time code, and its faces as triangles."""
     where = str(mesh.GetPath())
-    points = numbers(mesh.GetPointsAttr(), 3)
+    points = numbers(mesh.GetPointsAttr(), 3, time=code)
     counts = np.array(mesh.GetFaceVertexCountsAttr().Get() or [], dtype=np.int64)
     corners = np.array(mesh.GetFaceVertexIndicesAttr().Get() or [], dtype=np.int64)
     if points is None or not len(points):

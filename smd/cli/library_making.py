@@ -219,7 +219,7 @@ def _clip_lines(adopted: Adopted, name: str) -> list[str]:
     slide = f", sliding {mean_slide_m_s(clip, place):.2f} m/s on average" if touching else ""
     lines.append(f"  touches the ground: {touching or 'never'}{slide}")
     if clip.tracks.names:
-        lines.append(f"  moves {len(clip.tracks.names)} shapes: {_some(clip.tracks.names)}")
+        lines.append(f"  {len(clip.tracks.names)} tracks: {_some(clip.tracks.names)}")
     if adopted.left_out:
         lines.append(
             f"  note: the character lacks {len(adopted.left_out)} shapes that the file moves, "

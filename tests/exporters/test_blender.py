@@ -47,7 +47,7 @@ def test_blender_keeps_the_distance_of_few_keys(duel, tmp_path):
     for actor in duel[0].actors:
         action = bpy.data.objects[actor.name].animation_data.action
         keys = {len(curve.keyframe_points) for curve in curves_of(action)}
-        assert 2 < min(keys) == max(keys) < 0.7 * len(actor)
+        assert 2 < min(keys) == max(keys) < 0.85 * len(actor)
 
 
 def curves_of(action):

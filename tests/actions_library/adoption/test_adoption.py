@@ -193,3 +193,31 @@ def test_the_pelvis_s_own_turn_is_kept(tmp_path):
     turns = [c.rotation_xyzw[:, hips] for c in (clip, found)]
     one, other = (rotvec_from_quaternion(multiply(inverse(q[:-1]), q[1:])) for q in turns)
     np.testing.assert_allclose(one, other, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("file", "name"),
+    [
+        ("RobotExpressive.glb", "Idle"),
+        ("RobotExpressive.glb", "Dance"),
+        ("snake-animations.glb", None),
+    ],
+)
+def test_a_body_without_legs_moves_as_in_its_file(shared_data, file, name):
+    """Below its first joint all stand to each other as in the file, and none is upside down."""
+    imported = import_file(shared_data / "clips" / "gltf" / file)
+    animation = imported.animation(name or imported.animations[0].name)
+    character = adopted_character(imported, "legless")
+    clip = adopted_clip(imported, animation, character, "taken", cyclic=False).clip
+    _, theirs = forward_kinematics(
+        imported.skeleton, animation.rotation_xyzw, animation.translation_m
+    )
+    _, ours = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    # The snake's hangs from a first joint that stays where it is: bones of ours do not stretch.
+    ours = ours[:, [clip.skeleton.index(joint) for joint in imported.skeleton.joints[1:]]]
+    theirs = theirs[:, 1:]
+    for frame in (0, len(clip) // 2, len(clip) - 1):
+        apart = [np.linalg.norm(p[frame, :, None] - p[frame], axis=-1) for p in (ours, theirs)]
+        assert np.abs(apart[0] - apart[1]).max() < 0.05 * character.height_m
+    up = ours[..., 1] - theirs[..., 1]
+    assert np.ptp(up, axis=1).max() < 0.05 * character.height_m

@@ -45,6 +45,7 @@ def faces(path: Path) -> dict[str, object]:
     layer = Usd.Stage.Open(str(path)).Flatten()
     found: dict[str, object] = {}
     ends = ("points", "offsets", "pointIndices", "blendShapes", "blendShapeWeights")
+    ends += ("smd:controls", "smd:controlValues")
 
     def keep(where: Sdf.Path) -> None:
         if where.IsPropertyPath() and where.name in ends and "_character" in str(where):
@@ -68,7 +69,8 @@ def test_from_usd_to_a_library_to_usd_every_number_is_the_same(tmp_path):
     assert adopted.left_out == ()
     write_usd(played(library.clip("wave"), library.character), tmp_path / "after.usdc")
     before, after = faces(tmp_path / "before.usdc"), faces(tmp_path / "after.usdc")
-    assert len(before) == 3 + 2 * 4 + 1  # points and names of two meshes, four shapes, …
+    # Points of two meshes, offsets and indices of four shapes, names and values of two kinds.
+    assert len(before) == 2 + 2 * 4 + 2 * 2
     assert after == before
 
 
@@ -143,7 +145,7 @@ def test_weights_of_shapes_that_the_character_lacks_are_left_out_and_named(tmp_p
     (animation,) = imported.animations
     plain = load_library().character
     adopted = adopted_clip(imported, animation, plain, "wave")
-    assert adopted.clip.tracks.names == ()
+    assert adopted.clip.tracks.names == ("gear",)  # no shape's weight: a control
     assert set(adopted.left_out) == set(NAMES)
 
 

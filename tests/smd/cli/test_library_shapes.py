@@ -41,7 +41,7 @@ def mine(run_smd, file, tmp_path) -> Path:
 def test_a_story_is_acted_out_with_its_clips_faces(run_smd, mine, file, stories, tmp_path):
     code, out, _ = run_smd("library", "import", mine, file, "--action", "idle")
     assert code == 0
-    assert "moves 3 shapes: smile, jaw open, müde" in out
+    assert "4 tracks: smile, jaw open, müde, gear" in out
     assert run_smd("library", "check", "--library", mine)[0] == 0
     code, _, err = run_smd(
         *("convert", stories / "duel.csv", "--library", mine, "-o", tmp_path / "duel.usdc")
