@@ -20,7 +20,7 @@ from smd.character.mass import Mass
 from smd.character.poses import Poses, sampled
 from smd.expression.body import body_of
 from smd.expression.expressive import expressive
-from smd.expression.study import Study, study_of
+from smd.expression.study import study_of
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
 from smd.transfer.body_work import BodyWork, body_work
@@ -191,16 +191,18 @@ def repertoire(
 def with_efforts(known: Repertoire, phrases: Iterable[Phrase]) -> Repertoire:
     """Return a repertoire in which some phrases have their Effort too."""
     pieces = dict(known.pieces)
-    body = body_of(known.idle.clip)
-    studies: dict[str, Study] = {}
+    asked: dict[str, dict[str, Effort]] = {}
     for phrase in phrases:
         name = piece_name(phrase.action, phrase.effort, known.expressiveness)
         if name not in pieces:
-            neutral = pieces[phrase.action]
-            if phrase.action not in studies:
-                studies[phrase.action] = study_of(neutral.clip, body)
             effort = played_effort(phrase.effort, known.expressiveness)
-            clip = expressive(studies[phrase.action], effort, travels=neutral.travels)
+            asked.setdefault(phrase.action, {})[name] = effort
+    body = body_of(known.idle.clip)
+    for action, efforts in asked.items():
+        neutral = pieces[action]
+        study = study_of(neutral.clip, body)
+        clips = expressive(study, list(efforts.values()), travels=neutral.travels)
+        for name, clip in zip(efforts, clips, strict=True):
             pieces[name] = piece_of(
                 clip, travels=neutral.travels, legs=known.legs, neutral=neutral, mass=known.mass
             )
