@@ -116,7 +116,7 @@ def world_of(
 
 
 def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
-    """Return which way a foot points over the ground, about +Y from +Z, without jumps.
+    """Return which way a foot points over the ground ``(n, …)``, about +Y from +Z, without jumps.
 
     The steeper it is, the more its instep decides: on tiptoe, and beyond, a foot points where the
     shin's front does.
@@ -124,8 +124,8 @@ def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
     ahead = leg.ball_m - leg.heel_m
     ahead = normalized(ahead - (ahead @ leg.up) * leg.up)
     along, up = rotate(foot_xyzw, ahead), rotate(foot_xyzw, leg.up)
-    along = along - along[:, 1:2] ** 3 * up
-    return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
+    along = along - along[..., 1:2] ** 3 * up
+    return np.unwrap(np.arctan2(along[..., 0], along[..., 2]), axis=0)
 
 
 def pelvis_of(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:

@@ -59,8 +59,8 @@ class Mass(Frozen):
         return self.mean_m(place_m)
 
     def mean_m(self, place_m: FloatArray) -> FloatArray:
-        """Return the centre of mass ``(n, 3)``, given where its joints are ``(n, k, 3)``."""
-        return np.asarray(np.einsum("k,nkc->nc", self.share, place_m))
+        """Return the centre of mass ``(…, 3)``, given where its joints are ``(…, k, 3)``."""
+        return np.asarray(np.einsum("k,...kc->...c", self.share, place_m))
 
 
 def mass_of(skeleton: Skeleton) -> Mass | None:

@@ -12,10 +12,10 @@ from laban.effort import EFFORT_STEPS
 from smd.acting.flight import airborne
 from smd.acting.legs import Leg, feet_of, legs_of, pelvis_of, yaw_of
 from smd.acting.move import Airborne, Footwork
-from smd.acting.standing import standing
+from smd.acting.standing import resting, standing
 from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world
 from smd.character.mass import Mass
 from smd.character.poses import Poses, sampled
 from smd.expression.body import body_of
@@ -23,9 +23,9 @@ from smd.expression.expressive import expressive
 from smd.expression.study import study_of
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
-from smd.transfer.body_work import BodyWork, body_work
+from smd.transfer.body_work import BodyWork, body_works
 from smd.transfer.gait import Gait, fastest_m_s, gait_of
-from smd.transfer.ground_root import GroundRoot, ground_root
+from smd.transfer.ground_root import GroundRoot, ground_roots
 from smd.transfer.pacing import near_share
 
 NO_WAY_M = 0.05
@@ -202,10 +202,10 @@ def with_efforts(known: Repertoire, phrases: Iterable[Phrase]) -> Repertoire:
         neutral = pieces[action]
         study = study_of(neutral.clip, body)
         clips = expressive(study, list(efforts.values()), travels=neutral.travels)
-        for name, clip in zip(efforts, clips, strict=True):
-            pieces[name] = piece_of(
-                clip, travels=neutral.travels, legs=known.legs, neutral=neutral, mass=known.mass
-            )
+        made = pieces_of(
+            clips, travels=neutral.travels, legs=known.legs, neutral=neutral, mass=known.mass
+        )
+        pieces.update(zip(efforts, made, strict=True))
     return replace(known, pieces=pieces)
 
 
@@ -281,53 +281,69 @@ def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
     return found
 
 
-def piece_of(
-    clip: Clip,
+def piece_of(clip: Clip, *, travels: bool, legs: Sequence[Leg], mass: Mass | None = None) -> Piece:
+    """Prepare one clip; parameters as in `pieces_of`."""
+    return pieces_of([clip], travels=travels, legs=legs, mass=mass)[0]
+
+
+def pieces_of(
+    clips: Sequence[Clip],
     *,
     travels: bool,
     legs: Sequence[Leg],
     neutral: Piece | None = None,
     mass: Mass | None = None,
-) -> Piece:
-    """Prepare one clip.
+) -> list[Piece]:
+    """Prepare clips of one length together, such as one clip with several Efforts.
 
     Parameters
     ----------
+    clips
+        At least one.
     neutral
-        What the clip is an expression of: the same feet touch in both.
+        What they are expressions of: the same feet touch in all.
     mass
         Where the body's weight is, if what a clip asks of it is to be known.
     """
-    local = clip.rotation_xyzw, clip.translation_m
+    skeleton, rate_hz = clips[0].skeleton, clips[0].rate_hz
+    rotation = np.stack([clip.rotation_xyzw for clip in clips], axis=1)
+    translation = np.stack([clip.translation_m for clip in clips], axis=1)
     feet, weighing = [leg.foot for leg in legs], [] if mass is None else mass.joints.tolist()
-    holds_legs = pelvis_of(clip.skeleton, legs) or 0
-    world_q, place_m = joints_in_world(clip.skeleton, [*feet, holds_legs, *weighing], *local)
-    foot_q, foot_m = world_q[:, : len(feet)], place_m[:, : len(feet)]
-    touching = None if neutral is None else neutral.touching
-    stands = standing(clip, legs, touching, (foot_q, foot_m))
-    gait = gait_of(clip, stands) if travels and clip.cyclic else None
-    never = np.zeros(len(clip), dtype=bool)
-    columns = [stands.get(leg.foot, never) for leg in legs]
-    yaw = [yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)]
-    body = None
+    holds_legs = pelvis_of(skeleton, legs) or 0
+    joints = [*feet, holds_legs, *weighing]
+    world_q, place_m = joints_in_world(skeleton, joints, rotation, translation)
+    count = len(feet)
+    foot_q, pelvis_m = world_q[:, :, :count], place_m[:, :, count, 1]
+    rests = resting(legs, foot_q, place_m[:, :, :count], rate_hz)
+    yaw = np.empty(rests.shape)
+    for i, leg in enumerate(legs):
+        yaw[..., i] = yaw_of(leg, foot_q[:, :, i])
+    roots = ground_roots(rotation[:, :, 0], translation[:, :, 0])
+    bodies: Sequence[BodyWork | None] = [None] * len(clips)
     if mass is not None:
-        body = body_work(clip, mass.mean_m(place_m[:, len(feet) + 1 :]), travels=travels)
-    if neutral is not None:
-        near = neutral.near
-    else:
-        near = near_share(clip, forward_kinematics(clip.skeleton, *local)[1])
-    return Piece(
-        clip=clip,
-        travels=travels,
-        root=ground_root(clip),
-        stands=np.reshape(columns, (-1, len(clip))).T.astype(bool),
-        yaw_rad=np.reshape(yaw, (-1, len(clip))).T,
-        touching=tuple(stands),
-        gait=gait,
-        near=near,
-        airborne=_airborne(clip, stands, place_m[:, len(feet), 1]),
-        body=body,
-    )
+        centre_m = mass.mean_m(place_m[:, :, count + 1 :])
+        bodies = body_works(translation[:, :, 0], centre_m, rate_hz, travels=travels)
+    touching = None if neutral is None else neutral.touching
+    pieces = []
+    for i, clip in enumerate(clips):
+        stands = standing(clip, legs, touching, rests[:, i])
+        never = np.zeros(len(clip), dtype=bool)
+        columns = [stands.get(foot, never) for foot in feet]
+        pieces.append(
+            Piece(
+                clip=clip,
+                travels=travels,
+                root=roots[i],
+                stands=np.reshape(columns, (-1, len(clip))).T.astype(bool),
+                yaw_rad=yaw[:, i],
+                touching=tuple(stands),
+                gait=gait_of(clip, stands) if travels and clip.cyclic else None,
+                near=near_share(clip) if neutral is None else neutral.near,
+                airborne=_airborne(clip, stands, pelvis_m[:, i]),
+                body=bodies[i],
+            )
+        )
+    return pieces
 
 
 def _airborne(clip: Clip, stands: Mapping[int, BoolArray], body_m: FloatArray) -> Airborne | None:
