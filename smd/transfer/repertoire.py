@@ -145,8 +145,8 @@ def played_effort(effort: Effort, expressiveness: float) -> Effort:
     """Return the Effort that is played for one that was read, in steps, within its poles."""
 
     def stepped(axis: str, steps: int) -> float:
-        scaled = float(np.clip(expressiveness * (getattr(effort, axis) or 0.0), -1.0, 1.0))
-        return round(scaled * steps) / steps
+        scaled = expressiveness * (getattr(effort, axis) or 0.0)
+        return round(min(max(scaled, -1.0), 1.0) * steps) / steps
 
     return Effort(**{axis: stepped(axis, steps) for axis, steps in EFFORT_STEPS.items()})
 

@@ -34,6 +34,9 @@ _STEP_M = 0.01
 _MOST_STEPS = 4000
 _HALVINGS = 12
 
+_PART = np.sqrt(0.5)
+"""Share of the limit of acceleration along a path, and across it."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Way:
@@ -123,7 +126,9 @@ def roundest(place_m: FloatArray, limits: Limits) -> Way | None:
 
 def least_s(way: Way, fastest_m_s: float, limits: Limits) -> float:
     """Return the least time for a path, from rest to rest."""
-    return float(_soonest_s(way, fastest_m_s, limits.acceleration_m_s2)[-1])
+    most_m_s2 = limits.acceleration_m_s2
+    corners, step_m = _corners(way, most_m_s2), _step_m(way)
+    return float(_soonest_s(corners, step_m, fastest_m_s, most_m_s2)[-1])
 
 
 def _roundings(way_m: FloatArray, place_m: FloatArray, limits: Limits) -> Iterator[Way]:
@@ -162,25 +167,41 @@ def _rounded(
     return way, soonest_s
 
 
-def _soonest_s(way: Way, top_m_s: FloatArray | float, most_m_s2: float) -> FloatArray:
+def _corners(way: Way, most_m_s2: float) -> FloatArray:
+    """Return the most speed, squared, with which each place of a path can be passed ``(k,)``."""
+    step_m = _step_m(way)
+    ahead = np.gradient(way.place_m, axis=0) / step_m
+    bend = np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / step_m
+    return np.asarray(_PART * most_m_s2 / np.maximum(bend, 1e-6))
+
+
+def _step_m(way: Way) -> float:
+    """Return how far the places of a path are apart."""
+    return max(way.length_m / (len(way.gone_m) - 1), 1e-9)
+
+
+def _soonest_s(
+    corners: FloatArray, step_m: float, top_m_s: FloatArray | float, most_m_s2: float
+) -> FloatArray:
     """Return when each place of a path can be reached ``(k,)``, from rest to rest.
 
     Limited are the speed, and the acceleration along the path and across it [1]_: at each place the
     speed is what the corner allows, or what can be reached from the places before it and slowed
     down from before those after it.
 
+    Parameters
+    ----------
+    corners, step_m
+        `_corners` of the path, and the distance between its places.
+
     References
     ----------
     .. [1] J. E. Bobrow, S. Dubowsky, J. S. Gibson, "Time-optimal control of robotic manipulators
        along specified paths", International Journal of Robotics Research 4, 1985.
     """
-    step_m = max(way.length_m / (len(way.gone_m) - 1), 1e-9)
-    ahead = np.gradient(way.place_m, axis=0) / step_m
-    bend = np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / step_m
-    part = most_m_s2 * np.sqrt(0.5)  # of the limit, along and across
-    square = np.minimum(part / np.maximum(bend, 1e-6), np.minimum(top_m_s, 100.0) ** 2)
+    square = np.minimum(corners, np.minimum(top_m_s, 100.0) ** 2)
     square[[0, -1]] = 0.0
-    rise = 2.0 * part * step_m * np.arange(len(square))
+    rise = 2.0 * _PART * most_m_s2 * step_m * np.arange(len(square))
     square = np.minimum.accumulate(square - rise) + rise
     square = (np.minimum.accumulate((square + rise)[::-1]))[::-1] - rise
     speed = np.sqrt(np.maximum(square, 0.0))
@@ -194,15 +215,20 @@ def _times(
 
     Where even the soonest takes longer than there is, all is faster by a factor, the hurry.
     """
-    whole_s = _soonest_s(way, fastest_m_s, most_m_s2)
+    corners, step_m = _corners(way, most_m_s2), _step_m(way)
+
+    def soonest_s(top_m_s: float) -> FloatArray:
+        return _soonest_s(corners, step_m, np.minimum(top_m_s, fastest_m_s), most_m_s2)
+
+    whole_s = soonest_s(np.inf)
     hurry = float(whole_s[-1] / lasting_s)
     if hurry < 1.0:
         slow, fast = way.length_m / lasting_s, float(np.minimum(fastest_m_s, 100.0).max())
         for _ in range(_HALVINGS):
             middle = 0.5 * (slow + fast)
-            if _soonest_s(way, np.minimum(middle, fastest_m_s), most_m_s2)[-1] > lasting_s:
+            if soonest_s(middle)[-1] > lasting_s:
                 slow = middle
             else:
                 fast = middle
-        whole_s = _soonest_s(way, np.minimum(fast, fastest_m_s), most_m_s2)
+        whole_s = soonest_s(fast)
     return whole_s * (lasting_s / whole_s[-1]), max(hurry, 1.0)
