@@ -118,15 +118,15 @@ def allotted(wishes: Sequence[Wish], start_s: float, end_s: float) -> list[Share
     """
     if not wishes:
         return []
-    terms = _Terms()
-    drawn_s: list[float] = []
+    terms, lasting_s = _Terms(), end_s - start_s
+    drawn_s: list[float] = []  # from the take's start: seconds since 1970 have no digits to spare
     ends: list[tuple[int, int, int]] = []
     for wish in wishes:
         begin = len(drawn_s)
         moments = [wish.start_s, wish.end_s]
         if wish.strike_s is not None:
             moments.insert(1, wish.strike_s)
-        drawn_s += moments
+        drawn_s += [moment - start_s for moment in moments]
         end = len(drawn_s) - 1
         ends.append((begin, end if wish.strike_s is None else begin + 1, end))
     for i, (wish, (begin, strike, end)) in enumerate(zip(wishes, ends, strict=True)):
@@ -148,15 +148,15 @@ def allotted(wishes: Sequence[Wish], start_s: float, end_s: float) -> list[Share
                 _below(
                     terms,
                     end,
-                    end_s - share * wish.return_s,
+                    lasting_s - share * wish.return_s,
                     RETURN_WEIGHT * cost / wish.return_s**2,
                 )
-    terms.add(-1, 0, start_s, _FIRM)
-    _below(terms, len(drawn_s) - 1, end_s, _FIRM)
-    found_s = np.maximum.accumulate(np.clip(_least(terms, np.array(drawn_s)), start_s, end_s))
+    terms.add(-1, 0, 0.0, _FIRM)
+    _below(terms, len(drawn_s) - 1, lasting_s, _FIRM)
+    found_s = np.maximum.accumulate(np.clip(_least(terms, np.array(drawn_s)), 0.0, lasting_s))
     # Where there is no time at all, phrases still last a moment: they do where they were drawn.
-    within_s = np.clip(np.array(drawn_s), start_s, end_s)
-    found_s += _LEAST * (within_s - found_s)
+    within_s = np.clip(np.array(drawn_s), 0.0, lasting_s)
+    found_s += start_s + _LEAST * (within_s - found_s)
     return [
         Share(
             float(found_s[begin]),
