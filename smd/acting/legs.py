@@ -9,7 +9,7 @@ import numpy as np
 
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import inverse, normalized, rotate
@@ -53,9 +53,7 @@ def feet_of(clip: Clip) -> tuple[int, ...]:
     skeleton = clip.skeleton
     if not clip.contact_joints:
         return ()
-    _, place = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    _, place = rest_in_world(skeleton)
     up = place[:, 1] - place[:, 1].min()
     contact = {skeleton.index(name) for name in clip.contact_joints}
     contact = {joint for joint in contact if up[joint] < LOW_AT_REST * up.max()}
@@ -75,9 +73,7 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
     The knee is taken to point ahead. The ball is at the foot's first child, the heel on the
     ground behind the ankle; a foot without a child touches the ground below its joint alone.
     """
-    world_q, world_p = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    world_q, world_p = rest_in_world(skeleton)
     legs = []
     for foot in feet:
         lower = int(skeleton.parents[foot])

@@ -32,6 +32,18 @@ def forward_kinematics(
     return joints_in_world(skeleton, joints, rotation, np.asarray(translation_m, dtype=np.float64))
 
 
+@lru_cache(maxsize=16)
+def rest_in_world(skeleton: Skeleton) -> tuple[FloatArray, FloatArray]:
+    """Return each joint's rotation ``(j, 4)`` and position ``(j, 3)`` in the world at rest.
+
+    They are read-only: computed once for a skeleton.
+    """
+    local = skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
+    rotation, place = forward_kinematics(skeleton, *local)
+    rotation.flags.writeable = place.flags.writeable = False
+    return rotation, place
+
+
 def joints_in_world(
     skeleton: Skeleton, joints: Sequence[int], rotation_xyzw: FloatArray, translation_m: FloatArray
 ) -> tuple[FloatArray, FloatArray]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from laban.frozen import Frozen
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.roles import BodyPlan, LimbPlan, body_plan
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -65,9 +65,7 @@ class Mass(Frozen):
 
 def mass_of(skeleton: Skeleton) -> Mass | None:
     """Return where a body's weight is; None where no legs carry it."""
-    _, place_m = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    _, place_m = rest_in_world(skeleton)
     plan = body_plan(skeleton.joints, skeleton.parents.tolist(), place_m, front=(0.0, 0.0, 1.0))
     legs = [limb for limb in plan.limbs if limb.kind == "leg"]
     if not legs:

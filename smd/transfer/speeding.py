@@ -34,9 +34,6 @@ _STEP_M = 0.01
 _MOST_STEPS = 4000
 _HALVINGS = 12
 
-_PART = np.sqrt(0.5)
-"""Share of the limit of acceleration along a path, and across it."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Way:
@@ -46,20 +43,38 @@ class Way:
     ----------
     gone_m : (k,) evenly spaced, from 0 to the length of the path as drawn.
     place_m : (k, 2) where it is then.
+    length_m : of the path as it is.
+    bend_per_m : (k,) curvature at each place.
     """
 
     gone_m: FloatArray
     place_m: FloatArray
+    length_m: float
+    bend_per_m: FloatArray
 
     @property
-    def length_m(self) -> float:
-        """The length of the path as it is."""
-        return float(way_of_places(self.place_m)[-1])
+    def step_m(self) -> float:
+        """How far its places are apart."""
+        return _step_m(self.length_m, len(self.gone_m))
 
     def at(self, gone_m: FloatArray) -> FloatArray:
         """Return the places ``(n, 2)`` after some lengths."""
         axes = [np.interp(gone_m, self.gone_m, axis) for axis in self.place_m.T]
         return np.stack(axes, axis=-1)
+
+
+def _way(gone_m: FloatArray, place_m: FloatArray) -> Way:
+    """Return the path that is at some places after some lengths."""
+    length_m = float(way_of_places(place_m)[-1])
+    step_m = _step_m(length_m, len(gone_m))
+    ahead = np.gradient(place_m, axis=0) / step_m
+    bend_per_m = np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / step_m
+    return Way(gone_m, place_m, length_m, bend_per_m)
+
+
+def _step_m(length_m: float, places: int) -> float:
+    """Return how far the places of a path are apart."""
+    return max(length_m / (places - 1), 1e-9)
 
 
 def way_of_places(place_m: FloatArray) -> FloatArray:
@@ -126,9 +141,7 @@ def roundest(place_m: FloatArray, limits: Limits) -> Way | None:
 
 def least_s(way: Way, fastest_m_s: float, limits: Limits) -> float:
     """Return the least time for a path, from rest to rest."""
-    most_m_s2 = limits.acceleration_m_s2
-    corners, step_m = _corners(way, most_m_s2), _step_m(way)
-    return float(_soonest_s(corners, step_m, fastest_m_s, most_m_s2)[-1])
+    return float(_soonest_s(way, fastest_m_s, limits.acceleration_m_s2)[-1])
 
 
 def _roundings(way_m: FloatArray, place_m: FloatArray, limits: Limits) -> Iterator[Way]:
@@ -139,7 +152,7 @@ def _roundings(way_m: FloatArray, place_m: FloatArray, limits: Limits) -> Iterat
     once = np.concatenate([[True], np.diff(way_m) > 1e-9])
     drawn = np.stack([np.interp(gone_m, way_m[once], axis[once]) for axis in place_m.T], axis=-1)
     for sigma_m in ROUNDING_M:
-        way = Way(gone_m, gaussian_smoothed(drawn, sigma_m * (count - 1) / whole_m))
+        way = _way(gone_m, gaussian_smoothed(drawn, sigma_m * (count - 1) / whole_m))
         moved_m = np.sqrt(np.mean(np.sum((way.place_m - drawn) ** 2, axis=-1)))
         if sigma_m > 0.0 and (
             moved_m > limits.detour * whole_m or way.length_m < (1.0 - limits.shortening) * whole_m
@@ -167,41 +180,23 @@ def _rounded(
     return way, soonest_s
 
 
-def _corners(way: Way, most_m_s2: float) -> FloatArray:
-    """Return the most speed, squared, with which each place of a path can be passed ``(k,)``."""
-    step_m = _step_m(way)
-    ahead = np.gradient(way.place_m, axis=0) / step_m
-    bend = np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / step_m
-    return np.asarray(_PART * most_m_s2 / np.maximum(bend, 1e-6))
-
-
-def _step_m(way: Way) -> float:
-    """Return how far the places of a path are apart."""
-    return max(way.length_m / (len(way.gone_m) - 1), 1e-9)
-
-
-def _soonest_s(
-    corners: FloatArray, step_m: float, top_m_s: FloatArray | float, most_m_s2: float
-) -> FloatArray:
+def _soonest_s(way: Way, top_m_s: FloatArray | float, most_m_s2: float) -> FloatArray:
     """Return when each place of a path can be reached ``(k,)``, from rest to rest.
 
     Limited are the speed, and the acceleration along the path and across it [1]_: at each place the
     speed is what the corner allows, or what can be reached from the places before it and slowed
     down from before those after it.
 
-    Parameters
-    ----------
-    corners, step_m
-        `_corners` of the path, and the distance between its places.
-
     References
     ----------
     .. [1] J. E. Bobrow, S. Dubowsky, J. S. Gibson, "Time-optimal control of robotic manipulators
        along specified paths", International Journal of Robotics Research 4, 1985.
     """
+    part, step_m = most_m_s2 * np.sqrt(0.5), way.step_m  # of the limit, along and across
+    corners = part / np.maximum(way.bend_per_m, 1e-6)
     square = np.minimum(corners, np.minimum(top_m_s, 100.0) ** 2)
     square[[0, -1]] = 0.0
-    rise = 2.0 * _PART * most_m_s2 * step_m * np.arange(len(square))
+    rise = 2.0 * part * step_m * np.arange(len(square))
     square = np.minimum.accumulate(square - rise) + rise
     square = (np.minimum.accumulate((square + rise)[::-1]))[::-1] - rise
     speed = np.sqrt(np.maximum(square, 0.0))
@@ -215,20 +210,15 @@ def _times(
 
     Where even the soonest takes longer than there is, all is faster by a factor, the hurry.
     """
-    corners, step_m = _corners(way, most_m_s2), _step_m(way)
-
-    def soonest_s(top_m_s: float) -> FloatArray:
-        return _soonest_s(corners, step_m, np.minimum(top_m_s, fastest_m_s), most_m_s2)
-
-    whole_s = soonest_s(np.inf)
+    whole_s = _soonest_s(way, fastest_m_s, most_m_s2)
     hurry = float(whole_s[-1] / lasting_s)
     if hurry < 1.0:
         slow, fast = way.length_m / lasting_s, float(np.minimum(fastest_m_s, 100.0).max())
         for _ in range(_HALVINGS):
             middle = 0.5 * (slow + fast)
-            if soonest_s(middle)[-1] > lasting_s:
+            if _soonest_s(way, np.minimum(middle, fastest_m_s), most_m_s2)[-1] > lasting_s:
                 slow = middle
             else:
                 fast = middle
-        whole_s = soonest_s(fast)
+        whole_s = _soonest_s(way, np.minimum(fast, fastest_m_s), most_m_s2)
     return whole_s * (lasting_s / whole_s[-1]), max(hurry, 1.0)
