@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -151,6 +152,7 @@ def played_effort(effort: Effort, expressiveness: float) -> Effort:
     return Effort(**{axis: stepped(axis, steps) for axis, steps in EFFORT_STEPS.items()})
 
 
+@lru_cache(maxsize=4096)
 def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
     """Return what a piece is called: the action, and its Effort where it is not neutral."""
     played = played_effort(effort, expressiveness)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -35,7 +36,7 @@ _MOST_STEPS = 4000
 _HALVINGS = 12
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Way:
     """A path by its length.
 
@@ -43,38 +44,31 @@ class Way:
     ----------
     gone_m : (k,) evenly spaced, from 0 to the length of the path as drawn.
     place_m : (k, 2) where it is then.
-    length_m : of the path as it is.
-    bend_per_m : (k,) curvature at each place.
     """
 
     gone_m: FloatArray
     place_m: FloatArray
-    length_m: float
-    bend_per_m: FloatArray
+
+    @cached_property
+    def length_m(self) -> float:
+        """The length of the path as it is."""
+        return float(way_of_places(self.place_m)[-1])
 
     @property
     def step_m(self) -> float:
         """How far its places are apart."""
-        return _step_m(self.length_m, len(self.gone_m))
+        return max(self.length_m / (len(self.gone_m) - 1), 1e-9)
+
+    @cached_property
+    def bend_per_m(self) -> FloatArray:
+        """Its curvature ``(k,)`` at each place."""
+        ahead = np.gradient(self.place_m, axis=0) / self.step_m
+        return np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / self.step_m
 
     def at(self, gone_m: FloatArray) -> FloatArray:
         """Return the places ``(n, 2)`` after some lengths."""
         axes = [np.interp(gone_m, self.gone_m, axis) for axis in self.place_m.T]
         return np.stack(axes, axis=-1)
-
-
-def _way(gone_m: FloatArray, place_m: FloatArray) -> Way:
-    """Return the path that is at some places after some lengths."""
-    length_m = float(way_of_places(place_m)[-1])
-    step_m = _step_m(length_m, len(gone_m))
-    ahead = np.gradient(place_m, axis=0) / step_m
-    bend_per_m = np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / step_m
-    return Way(gone_m, place_m, length_m, bend_per_m)
-
-
-def _step_m(length_m: float, places: int) -> float:
-    """Return how far the places of a path are apart."""
-    return max(length_m / (places - 1), 1e-9)
 
 
 def way_of_places(place_m: FloatArray) -> FloatArray:
@@ -152,7 +146,7 @@ def _roundings(way_m: FloatArray, place_m: FloatArray, limits: Limits) -> Iterat
     once = np.concatenate([[True], np.diff(way_m) > 1e-9])
     drawn = np.stack([np.interp(gone_m, way_m[once], axis[once]) for axis in place_m.T], axis=-1)
     for sigma_m in ROUNDING_M:
-        way = _way(gone_m, gaussian_smoothed(drawn, sigma_m * (count - 1) / whole_m))
+        way = Way(gone_m, gaussian_smoothed(drawn, sigma_m * (count - 1) / whole_m))
         moved_m = np.sqrt(np.mean(np.sum((way.place_m - drawn) ** 2, axis=-1)))
         if sigma_m > 0.0 and (
             moved_m > limits.detour * whole_m or way.length_m < (1.0 - limits.shortening) * whole_m
