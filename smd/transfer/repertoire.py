@@ -19,7 +19,7 @@ from smd.character.clip import Clip
 from smd.character.kinematics import joints_in_world
 from smd.character.mass import Mass
 from smd.character.poses import Poses, sampled
-from smd.expression.body import body_of
+from smd.expression.body import Body, body_of
 from smd.expression.expressive import expressive
 from smd.expression.study import study_of
 from smd.geometry.arrays import BoolArray, FloatArray
@@ -181,34 +181,51 @@ def repertoire(
     names = sorted({IDLE, *actions, *rests.values(), *leaving.values()})
     clips = [library.clip(name) for name in names]
     legs = legs_of(library.character.skeleton, sorted({f for clip in clips for f in feet_of(clip)}))
-    pieces = {
-        name: piece_of(clip, travels=library.action(name).travels, legs=legs, mass=mass)
-        for name, clip in zip(names, clips, strict=True)
-    }
-    return with_efforts(
-        Repertoire(pieces, legs, rests, leaving, expressiveness, mass=mass), phrases
-    )
+    asked, body = _asked(phrases, expressiveness), body_of(library.clip(IDLE))
+    pieces: dict[str, Piece] = {}
+    for name, clip in zip(names, clips, strict=True):
+        travels, efforts = library.action(name).travels, asked.get(name, {})
+        played = _played(clip, efforts, body, travels=travels)
+        made = pieces_of([clip, *played], travels=travels, legs=legs, mass=mass)
+        pieces.update(zip([name, *efforts], made, strict=True))
+    return Repertoire(pieces, legs, rests, leaving, expressiveness, mass=mass)
 
 
 def with_efforts(known: Repertoire, phrases: Iterable[Phrase]) -> Repertoire:
     """Return a repertoire in which some phrases have their Effort too."""
     pieces = dict(known.pieces)
+    body = body_of(known.idle.clip)
+    for action, efforts in _asked(phrases, known.expressiveness).items():
+        new = {name: effort for name, effort in efforts.items() if name not in pieces}
+        if new:
+            neutral = pieces[action]
+            travels = neutral.travels
+            clips = _played(neutral.clip, new, body, travels=travels)
+            made = pieces_of(
+                clips, travels=travels, legs=known.legs, neutral=neutral, mass=known.mass
+            )
+            pieces.update(zip(new, made, strict=True))
+    return replace(known, pieces=pieces)
+
+
+def _asked(phrases: Iterable[Phrase], expressiveness: float) -> dict[str, dict[str, Effort]]:
+    """Return the Efforts that are played, by action and by what their pieces are called."""
     asked: dict[str, dict[str, Effort]] = {}
     for phrase in phrases:
-        name = piece_name(phrase.action, phrase.effort, known.expressiveness)
-        if name not in pieces:
-            effort = played_effort(phrase.effort, known.expressiveness)
+        name = piece_name(phrase.action, phrase.effort, expressiveness)
+        if name != phrase.action:  # not neutral
+            effort = played_effort(phrase.effort, expressiveness)
             asked.setdefault(phrase.action, {})[name] = effort
-    body = body_of(known.idle.clip)
-    for action, efforts in asked.items():
-        neutral = pieces[action]
-        study = study_of(neutral.clip, body)
-        clips = expressive(study, list(efforts.values()), travels=neutral.travels)
-        made = pieces_of(
-            clips, travels=neutral.travels, legs=known.legs, neutral=neutral, mass=known.mass
-        )
-        pieces.update(zip(efforts, made, strict=True))
-    return replace(known, pieces=pieces)
+    return asked
+
+
+def _played(
+    clip: Clip, efforts: Mapping[str, Effort], body: Body, *, travels: bool
+) -> tuple[Clip, ...]:
+    """Return a clip as it is played with some Efforts."""
+    if not efforts:
+        return ()
+    return expressive(study_of(clip, body), list(efforts.values()), travels=travels)
 
 
 def with_faster(known: Repertoire, library: ActionLibrary) -> Repertoire:
@@ -296,14 +313,14 @@ def pieces_of(
     neutral: Piece | None = None,
     mass: Mass | None = None,
 ) -> list[Piece]:
-    """Prepare clips of one length together, such as one clip with several Efforts.
+    """Prepare a clip and its expressions together: as many frames, in which the same feet touch.
 
     Parameters
     ----------
     clips
         At least one.
     neutral
-        What they are expressions of: the same feet touch in all.
+        What they are expressions of; by default the first of them.
     mass
         Where the body's weight is, if what a clip asks of it is to be known.
     """
@@ -325,10 +342,10 @@ def pieces_of(
     if mass is not None:
         centre_m = mass.mean_m(place_m[:, :, count + 1 :])
         bodies = body_works(translation[:, :, 0], centre_m, rate_hz, travels=travels)
-    touching = None if neutral is None else neutral.touching
-    pieces = []
+    pieces: list[Piece] = []
     for i, clip in enumerate(clips):
-        stands = standing(clip, legs, touching, rests[:, i])
+        like = pieces[0] if neutral is None and pieces else neutral
+        stands = standing(clip, legs, None if like is None else like.touching, rests[:, i])
         never = np.zeros(len(clip), dtype=bool)
         columns = [stands.get(foot, never) for foot in feet]
         pieces.append(
@@ -340,7 +357,7 @@ def pieces_of(
                 yaw_rad=yaw[:, i],
                 touching=tuple(stands),
                 gait=gait_of(clip, stands) if travels and clip.cyclic else None,
-                near=near_share(clip) if neutral is None else neutral.near,
+                near=near_share(clip) if like is None else like.near,
                 airborne=_airborne(clip, stands, pelvis_m[:, i]),
                 body=bodies[i],
             )
