@@ -60,6 +60,26 @@ def timed(name: str, work: Callable[[], Any]) -> Any:
     return result
 
 
+def processor_s(work: Callable[[], Any]) -> float:
+    """Return the processor time of some work."""
+    started = time.process_time()
+    work()
+    return time.process_time() - started
+
+
+def print_ratio(parse: Callable[[], Any], animate: Callable[[], Any]) -> None:
+    """Print what animate takes in parts of what parse takes, one after the other, again and again.
+
+    A ratio in one run says the same on a busy machine as on a free one, and on a fast as on a slow.
+    """
+    both = [(processor_s(parse), processor_s(animate)) for _ in range(7)]
+    ratios = [animated / parsed for parsed, animated in both]
+    print(
+        f"  animate takes {median(ratios):.2f} of parse's processor time "
+        f"({min(ratios):.2f} – {max(ratios):.2f})"
+    )
+
+
 def print_lengths() -> None:
     """Print what conversions of other lengths cost, one run each after another."""
     from benchmarks.takes import long_recording
@@ -93,6 +113,9 @@ def main() -> None:
         score = timed("parse", lambda: smd.parse(recording, library))
         performance = timed("animate", lambda: smd.animate(score, recording, library))
         timed("write", lambda: smd.write(performance, output))
+        print_ratio(
+            lambda: smd.parse(recording, library), lambda: smd.animate(score, recording, library)
+        )
         character = library.character
         print(
             f"  {sum(len(d) for d in recording.doodles)} rows, "
