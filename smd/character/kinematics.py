@@ -23,7 +23,7 @@ def forward_kinematics(
     Parameters
     ----------
     skeleton
-        Gives the tree.
+        Gives the lineage.
     rotation_xyzw, translation_m
         Local poses ``(…, j, 4)`` and ``(…, j, 3)``; any leading axes.
     """
@@ -51,23 +51,23 @@ def joints_in_world(
 
     As `forward_kinematics`, but for these joints and what they hang from alone.
     """
-    tree = _tree_above(tuple(joints), tuple(skeleton.parents.tolist()))
+    lineage = _lineage(tuple(joints), tuple(skeleton.parents.tolist()))
     # Joints first: a generation is one block of memory.
-    local_q = np.moveaxis(rotation_xyzw, -2, 0).take(tree.order, axis=0)
-    local_t = np.moveaxis(translation_m, -2, 0).take(tree.order, axis=0)
+    local_q = np.moveaxis(rotation_xyzw, -2, 0).take(lineage.order, axis=0)
+    local_t = np.moveaxis(translation_m, -2, 0).take(lineage.order, axis=0)
     world_q, world_p = np.empty_like(local_q), np.empty_like(local_t)
-    for at, above in tree.generations:
+    for at, above in lineage.generations:
         if len(above) == 0:
             world_q[at], world_p[at] = local_q[at], local_t[at]
             continue
         parent_q = world_q.take(above, axis=0)
         world_q[at] = multiply(parent_q, local_q[at])
         world_p[at] = world_p.take(above, axis=0) + rotate(parent_q, local_t[at])
-    rotation, place = world_q.take(tree.rows, axis=0), world_p.take(tree.rows, axis=0)
+    rotation, place = world_q.take(lineage.rows, axis=0), world_p.take(lineage.rows, axis=0)
     return np.moveaxis(rotation, 0, -2), np.moveaxis(place, 0, -2)
 
 
-class _Tree(NamedTuple):
+class _Lineage(NamedTuple):
     """Joints and what they hang from, roots first.
 
     ``order`` are their indices in the skeleton. ``generations`` are slices of them, each with where
@@ -81,7 +81,7 @@ class _Tree(NamedTuple):
 
 
 @lru_cache(maxsize=256)
-def _tree_above(joints: tuple[int, ...], parents: tuple[int, ...]) -> _Tree:
+def _lineage(joints: tuple[int, ...], parents: tuple[int, ...]) -> _Lineage:
     """Return some joints and what they hang from."""
     depth: dict[int, int] = {}
     for joint in joints:
@@ -100,4 +100,4 @@ def _tree_above(joints: tuple[int, ...], parents: tuple[int, ...]) -> _Tree:
         at = slice(of[own[0]], of[own[-1]] + 1)
         generations.append((at, np.array(above, dtype=np.int64)))
     rows = [of[joint] for joint in joints]
-    return _Tree(np.array(order, np.int64), generations, np.array(rows, np.int64))
+    return _Lineage(np.array(order, np.int64), generations, np.array(rows, np.int64))
