@@ -35,14 +35,14 @@ def check_library(library: Library) -> Findings:
 def _faults(library: Library) -> Iterator[str]:
     """Yield what is missing, damaged or does not fit."""
     try:
-        skeleton = library.character.skeleton
+        character = library.character
     except LibraryError as error:
         yield str(error)
         return
     for action in library.actions:
         file = library.clip_files[action.name]
         try:
-            read_clip_file(library.folder / file, action.name, skeleton)
+            read_clip_file(library.folder / file, action.name, character)
         except LibraryError as error:
             yield f"action {action.name!r}: {error}"
 
@@ -79,13 +79,13 @@ def _warnings(library: Library) -> Iterator[str]:
 def _clip_warnings(library: Library) -> Iterator[str]:
     """Yield what is not right in clips that can be read, by `smd.character.quality`."""
     try:
-        skeleton = library.character.skeleton
+        character = library.character
     except LibraryError:
         return
     for action in library.actions:
         try:
             clip = read_clip_file(
-                library.folder / library.clip_files[action.name], action.name, skeleton
+                library.folder / library.clip_files[action.name], action.name, character
             )
         except LibraryError:
             continue

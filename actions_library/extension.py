@@ -178,7 +178,7 @@ def put_clip(library: Library, action: Action, clip: Clip, credit: Credit) -> Li
     )
     with _taken_back(library.folder, clip_file, exemplar_file):
         with _new_file(library.folder / clip_file) as path:
-            write_clip_file(path, clip, f"../{library.character_file}")
+            write_clip_file(path, clip, library.character, f"../{library.character_file}")
         if action.exemplar is not None:
             with _new_file(library.folder / exemplar_file) as path:
                 write_exemplar(path, action.exemplar)

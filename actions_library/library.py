@@ -98,10 +98,9 @@ class Library(Frozen):
         """
         from actions_library.storage import read_clip_file
 
-        skeleton = self.character.skeleton
         return MappingProxyType(
             {
-                name: read_clip_file(self.folder / file, name, skeleton)
+                name: read_clip_file(self.folder / file, name, self.character)
                 for name, file in self.clip_files.items()
             }
         )

@@ -26,7 +26,6 @@ from actions_library.usd_skel import (
 )
 from smd.character.character import Character
 from smd.character.clip import STAGES, Clip
-from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError, LibraryError
 
 CHARACTER_FILE, CLIPS_FOLDER = "character.usdc", "clips"
@@ -68,7 +67,7 @@ def read_character_file(path: Path) -> Character:
         raise LibraryError(f"{path}: {error}") from error
 
 
-def write_clip_file(path: Path, clip: Clip, character_file: str) -> None:
+def write_clip_file(path: Path, clip: Clip, character: Character, character_file: str) -> None:
     """Write a clip as a USD file that shows it on the character of another file."""
     stage = new_stage(_CLIP_ROOT[1:])
     stage.SetTimeCodesPerSecond(clip.rate_hz)
@@ -82,6 +81,8 @@ def write_clip_file(path: Path, clip: Clip, character_file: str) -> None:
         clip.skeleton,
         clip.rotation_xyzw,
         clip.translation_m,
+        tracks=clip.tracks,
+        shapes=character.shapes,
     )
     bind_animation(root, animation)
     # One digit a frame and joint: 1 while it touches the ground.
@@ -103,18 +104,19 @@ def write_clip_file(path: Path, clip: Clip, character_file: str) -> None:
     layer.Export(str(path))
 
 
-def read_clip_file(path: Path, name: str, skeleton: Skeleton) -> Clip:
-    """Return the clip that a file holds, if it moves this skeleton.
+def read_clip_file(path: Path, name: str, character: Character) -> Clip:
+    """Return the clip that a file holds, if it moves this character.
 
     Raises
     ------
     LibraryError
-        If the file is missing, is not one of ours, or moves another skeleton.
+        If the file is missing, is not one of ours, or moves joints or shapes of another character.
     """
+    skeleton = character.skeleton
     layer = _open(path, CLIP_SCHEMA)
     animation = f"{_CLIP_ROOT}/{ANIMATION}"
     try:
-        joints, rotation, translation = read_animation(layer, animation)
+        joints, rotation, translation, tracks = read_animation(layer, animation, character.shapes)
         if joints != joint_paths(skeleton):
             raise CharacterError("joints: expected those of the library's character")
         data = layer.GetPrimAtPath(animation).customData[_CLIP_DATA]
@@ -129,6 +131,7 @@ def read_clip_file(path: Path, name: str, skeleton: Skeleton) -> Clip:
             contact_joints=tuple(data["contact_joints"]),
             contacts=contacts.reshape(-1, len(rotation)).T,
             cyclic=data["cyclic"],
+            tracks=tracks,
         )
     except (CharacterError, ValueError) as error:
         raise LibraryError(f"{path}: {error}") from error

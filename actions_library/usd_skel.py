@@ -1,11 +1,11 @@
-"""Skeletons, skinned meshes and joint animation in UsdSkel, both ways.
+"""Skeletons, skinned meshes with shapes, and animation of both in UsdSkel, both ways.
 
 This is one of the two doors (the other is `exporters.usd`) at which our conventions meet USD's:
 row vectors in matrices, and quaternions that print their real part first. In memory a
 ``GfQuatf`` lies as x, y, z, w, so that an array of ours is an array of USD's without a copy of
-its own. Points, weights, rotations and translations are stored in single precision, rest and
-bind transforms in double. What is defined is given in metres, Y up, and stored in the frame that
-its stage says it has.
+its own. Points, offsets, weights, rotations and translations are stored in single precision, rest
+and bind transforms in double. What is defined is given in metres, Y up, and stored in the frame
+that its stage says it has.
 
 References
 ----------
@@ -24,8 +24,10 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade, UsdSkel, Vt
 
 from actions_library.naming import numbered
 from actions_library.stage_frame import StageFrame
+from smd.character.blend_shape import BlendShape
 from smd.character.character import MAX_INFLUENCES, Character, Mesh
 from smd.character.skeleton import Skeleton
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import matrix_from_quaternion, normalized
@@ -34,6 +36,9 @@ SKELETON, ANIMATION, MATERIALS = "Skeleton", "Animation", "Materials"
 """Names of the prims under a character's SkelRoot, beside its meshes."""
 
 _ROLES = "smd:roles"
+
+CONTROLS, CONTROL_VALUES = "smd:controls", "smd:controlValues"
+"""Attributes of a SkelAnimation: names of tracks that no mesh has a shape for, and their values."""
 
 
 def unique_identifiers(names: Iterable[str]) -> list[str]:
@@ -127,6 +132,9 @@ def define_animation(
     rotation_xyzw: ArrayLike,
     translation_m: ArrayLike,
     frames: IntArray | None = None,
+    *,
+    tracks: Tracks = NO_TRACKS,
+    shapes: Sequence[str] = (),
 ) -> UsdSkel.Animation:
     """Define a SkelAnimation with one sample a frame, frame i at time code i.
 
@@ -140,6 +148,10 @@ def define_animation(
         Local poses ``(n, j, 4)``, unit, and ``(n, j, 3)``; stored in single precision.
     frames
         ``(k,)``, those that get a sample, in order; every frame by default.
+    tracks
+        Of as many frames as the poses.
+    shapes
+        Which of the tracks are weights of a character's shapes; others are stored as `CONTROLS`.
     """
     animation = UsdSkel.Animation.Define(stage, path)
     animation.CreateJointsAttr(joint_paths(skeleton))
@@ -149,6 +161,17 @@ def define_animation(
     rotations, translations = frame.rotations(rotation_xyzw), frame.points(translation_m)
     set_samples(animation.CreateRotationsAttr(), rotations, Vt.QuatfArray, frames)
     set_samples(animation.CreateTranslationsAttr(), translations, Vt.Vec3fArray, frames)
+    weights, controls = tracks.among(shapes), tracks.without(shapes)
+    if weights.names:
+        animation.CreateBlendShapesAttr(list(weights.names))
+        attribute = animation.CreateBlendShapeWeightsAttr()
+        set_samples(attribute, weights.value, Vt.FloatArray, frames)
+    if controls.names:
+        prim, kinds = animation.GetPrim(), Sdf.ValueTypeNames
+        names = prim.CreateAttribute(CONTROLS, kinds.TokenArray, True, Sdf.VariabilityUniform)
+        names.Set(list(controls.names))
+        attribute = prim.CreateAttribute(CONTROL_VALUES, kinds.FloatArray, True)
+        set_samples(attribute, controls.value, Vt.FloatArray, frames)
     return animation
 
 
@@ -165,7 +188,7 @@ def bind_animation(
 def set_samples(
     attribute: Usd.Attribute, values: ArrayLike, kind: Any, frames: IntArray | None = None
 ) -> None:
-    """Give an attribute one array a frame: ``values (n, k, components)`` at codes 0 … n - 1.
+    """Give an attribute one array a frame: ``values (n, k, …)`` at codes 0 … n - 1.
 
     They are stored as they are, in the stage's own frame; where ``frames`` are given, those alone,
     and once where all of those are the same.
@@ -201,13 +224,23 @@ def read_character(stage: Usd.Stage, name: str) -> Character:
     return Character(name=name, skeleton=_read_skeleton(skeletons[0]), meshes=meshes)
 
 
-def read_animation(layer: Sdf.Layer, path: str) -> tuple[list[str], FloatArray, FloatArray]:
-    """Return the joints' paths, rotations ``(n, j, 4)`` xyzw and translations ``(n, j, 3)``.
+def read_animation(
+    layer: Sdf.Layer, path: str, shapes: Sequence[str] = ()
+) -> tuple[list[str], FloatArray, FloatArray, Tracks]:
+    """Return the joints' paths, rotations ``(n, j, 4)`` xyzw, translations ``(n, j, 3)``, tracks.
+
+    Parameters
+    ----------
+    layer, path
+        Where the SkelAnimation is.
+    shapes
+        Those that its character has.
 
     Raises
     ------
     CharacterError
-        If the layer has no such SkelAnimation, or its samples are not of one shape.
+        If the layer has no such SkelAnimation, its samples are not of one shape, or there is a
+        weight without a shape.
     """
     joints = layer.GetAttributeAtPath(f"{path}.joints")
     if joints is None or joints.default is None:
@@ -215,10 +248,25 @@ def read_animation(layer: Sdf.Layer, path: str) -> tuple[list[str], FloatArray, 
     names = list(joints.default)
     rotation = _read_samples(layer, f"{path}.rotations", (len(names), 4))
     translation = _read_samples(layer, f"{path}.translations", (len(names), 3))
-    return names, rotation, translation
+    weights = _read_tracks(layer, f"{path}.blendShapes", f"{path}.blendShapeWeights")
+    if strange := weights.without(shapes).names:
+        raise CharacterError(
+            f"{path}.blendShapes: expected shapes of the character, got {strange[0]!r}"
+        )
+    controls = _read_tracks(layer, f"{path}.{CONTROLS}", f"{path}.{CONTROL_VALUES}")
+    return names, rotation, translation, weights.beside(controls)
 
 
-def _read_samples(layer: Sdf.Layer, path: str, shape: tuple[int, int]) -> FloatArray:
+def _read_tracks(layer: Sdf.Layer, names: str, values: str) -> Tracks:
+    """Return the tracks of two attributes, of their names and of their values."""
+    named = layer.GetAttributeAtPath(names)
+    if named is None or not named.default:
+        return NO_TRACKS
+    found = tuple(map(str, named.default))
+    return Tracks(found, _read_samples(layer, values, (len(found),)))
+
+
+def _read_samples(layer: Sdf.Layer, path: str, shape: tuple[int, ...]) -> FloatArray:
     """Return an attribute's time samples in their order, ``(n, *shape)``."""
     times = layer.ListTimeSamplesForPath(path)
     values = [np.array(layer.QueryTimeSample(path, time)) for time in times]
@@ -288,7 +336,46 @@ def _define_mesh(
     indices.Set(Vt.IntArray.FromNumpy(mesh.joint_indices.ravel().astype(np.int32)))
     weights.Set(Vt.FloatArray.FromNumpy(mesh.joint_weights.ravel().astype(np.float32)))
     binding.CreateGeomBindTransformAttr(Gf.Matrix4d(1.0))
+    if mesh.shapes:
+        names = unique_identifiers(shape.name for shape in mesh.shapes)
+        _define_shapes(stage, path, mesh, names)
+        binding.CreateBlendShapesAttr([shape.name for shape in mesh.shapes])
+        targets = [f"{path}/{name}" for name in names]
+        binding.CreateBlendShapeTargetsRel().SetTargets(targets)
     return prim
+
+
+def _define_shapes(stage: Usd.Stage, path: str, mesh: Mesh, names: Sequence[str]) -> None:
+    """Define a BlendShape of each name below a mesh: offsets of points, and of their normals.
+
+    As `set_samples` does, in the layer and inside one change block: through the stage each shape
+    would pay for all that are there.
+    """
+    frame, target = StageFrame.of(stage), stage.GetEditTarget()
+    parent = target.GetLayer().GetPrimAtPath(target.MapToSpecPath(Sdf.Path(path)))
+    plain = vertex_normals(mesh.points_m, mesh.triangles)
+    with Sdf.ChangeBlock():
+        for name, shape in zip(names, mesh.shapes, strict=True):
+            moves = np.zeros(len(mesh.points_m), dtype=bool)
+            moves[shape.indices] = True
+            formed = mesh.points_m.copy()
+            formed[shape.indices] += shape.offsets_m
+            near = mesh.triangles[moves[mesh.triangles].any(axis=1)]
+            normals = (vertex_normals(formed, near) - plain)[shape.indices]
+            prim = Sdf.PrimSpec(parent, name, Sdf.SpecifierDef, "BlendShape")
+            vectors, whole = Sdf.ValueTypeNames.Vector3fArray, Sdf.ValueTypeNames.IntArray
+            _set_uniform(prim, "offsets", vectors, _vectors(frame.points(shape.offsets_m)))
+            _set_uniform(prim, "normalOffsets", vectors, _vectors(frame.directions(normals)))
+            indices = Vt.IntArray.FromNumpy(shape.indices.astype(np.int32))
+            _set_uniform(prim, "pointIndices", whole, indices)
+
+
+def _vectors(values: FloatArray) -> Vt.Vec3fArray:
+    return Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(values, dtype=np.float32))
+
+
+def _set_uniform(prim: Sdf.PrimSpec, name: str, kind: Sdf.ValueTypeName, value: Any) -> None:
+    Sdf.AttributeSpec(prim, name, kind, Sdf.VariabilityUniform).default = value
 
 
 def define_mesh(
@@ -335,6 +422,28 @@ def _read_mesh(prim: UsdGeom.Mesh) -> Mesh:
             joint_indices=indices.reshape(-1, MAX_INFLUENCES),
             joint_weights=weights.reshape(-1, MAX_INFLUENCES),
             color_rgb=(float(color[0][0]), float(color[0][1]), float(color[0][2])),
+            shapes=_read_shapes(binding, len(points)),
         )
     except ValueError as error:
         raise CharacterError(f"{prim.GetPath()}: expected triangles of 4 influences") from error
+
+
+def _read_shapes(binding: UsdSkel.BindingAPI, count: int) -> tuple[BlendShape, ...]:
+    """Return the shapes that a mesh of so many points is bound to."""
+    prim = binding.GetPrim()
+    names = [str(name) for name in binding.GetBlendShapesAttr().Get() or ()]
+    targets = binding.GetBlendShapeTargetsRel().GetTargets()
+    if len(names) != len(targets):
+        raise CharacterError(
+            f"{prim.GetPath()}: expected {len(names)} blend shapes, got {len(targets)}"
+        )
+    shapes = []
+    for name, target in zip(names, targets, strict=True):
+        shape = UsdSkel.BlendShape.Get(prim.GetStage(), target)
+        offsets = shape.GetOffsetsAttr().Get() if shape else None
+        if offsets is None:
+            raise CharacterError(f"{target}: expected a BlendShape with offsets, found none")
+        indices = shape.GetPointIndicesAttr().Get()
+        where = np.arange(count) if indices is None else np.array(indices, dtype=np.int64)
+        shapes.append(BlendShape(name, where, np.array(offsets).reshape(-1, 3)))
+    return tuple(shapes)

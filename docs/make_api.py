@@ -107,10 +107,12 @@ def sections() -> list[Section]:
             "Characters",
             "What is posed.",
             {
-                "smd.character.character": ["Character"],
+                "smd.character.character": ["Character", "Mesh"],
+                "smd.character.blend_shape": ["BlendShape"],
                 "smd.character.skeleton": ["Skeleton"],
                 "smd.character.clip": ["Clip"],
                 "smd.character.poses": ["Poses"],
+                "smd.character.tracks": ["Tracks"],
                 "smd.character.kinematics": ["forward_kinematics"],
             },
         ),

@@ -51,9 +51,13 @@ class Figure:
     def points_m(self, time_code: float) -> FloatArray:
         """Return the positions of the points, ``(p, 3)``, metres, Y up."""
         transforms = self._skeleton.ComputeSkinningTransforms(time_code)
+        animation = self._skeleton.GetAnimQuery()
+        weights = animation.ComputeBlendShapeWeights(time_code) if animation else None
         world = self._world(time_code)
         return (
-            np.concatenate([_skinned(target, transforms, time_code) for target in self._targets])
+            np.concatenate(
+                [_skinned(target, transforms, weights, time_code) for target in self._targets]
+            )
             @ world[:3, :3]
             + world[3, :3]
         )
@@ -183,9 +187,15 @@ def _figure(stage: Usd.Stage, root: Usd.Prim, skeleton: Any, targets: list[Any])
     )
 
 
-def _skinned(target: Any, transforms: Any, time_code: float) -> FloatArray:
-    """Return a mesh's points in the skeleton's space."""
+def _skinned(target: Any, transforms: Any, weights: Any, time_code: float) -> FloatArray:
+    """Return a mesh's points in the skeleton's space; ``weights`` are those of the animation."""
     points = UsdGeom.Mesh(target.GetPrim()).GetPointsAttr().Get(time_code)
+    if weights and target.HasBlendShapes():
+        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(target.GetPrim()))
+        own = shapes.ComputeSubShapeWeights(target.GetBlendShapeMapper().Remap(weights))
+        indices = shapes.ComputeBlendShapePointIndices()
+        offsets = shapes.ComputeSubShapePointOffsets()
+        shapes.ComputeDeformedPoints(*own, indices, offsets, points)
     if target.IsRigidlyDeformed():
         matrix = np.array(target.ComputeSkinnedTransform(transforms, time_code))
         return np.array(points) @ matrix[:3, :3] + matrix[3, :3]

@@ -1,7 +1,7 @@
 """Few keys: the frames to write, so that interpolation between them stays close to all others.
 
 A SkelAnimation has the rotations of all joints in one array a time sample, so a key is a pose of
-the whole body. Poses at keys are exact.
+the whole body, and the weights of all shapes. What is at keys is exact.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from exporters.bounds import joint_boxes
 from smd.character.character import Character
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses, mixed
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.errors import ExportError
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import matrix_from_quaternion, slerp
@@ -36,7 +37,9 @@ MIXES: tuple[Mix, ...] = (slerped, mixed)
 """How readers interpolate: USD, and Blender between the keys that it makes of time samples."""
 
 
-def key_frames(character: Character, poses: Poses, within_m: float) -> IntArray:
+def key_frames(
+    character: Character, poses: Poses, within_m: float, tracks: Tracks = NO_TRACKS
+) -> IntArray:
     """Return the frames to keep, the first and the last among them, in order.
 
     From each key the next is as far away as it may be: the gap doubles until it is too wide, then
@@ -53,6 +56,8 @@ def key_frames(character: Character, poses: Poses, within_m: float) -> IntArray:
     within_m
         Greatest distance of any point of the skin from where it is at each frame, in the world and
         however a reader interpolates (`MIXES`).
+    tracks
+        ``(n, …)``, of which the weights of shapes count; any reader interpolates them linearly.
 
     Raises
     ------
@@ -61,7 +66,7 @@ def key_frames(character: Character, poses: Poses, within_m: float) -> IntArray:
     """
     if not (np.isfinite(within_m) and within_m > 0):
         raise ExportError(f"keys_within_m: expected a positive number, found {within_m!r}")
-    drift = _Drift(character, poses)
+    drift = _Drift(character, poses, tracks)
     last = len(drift) - 1
     short = _short_gaps(drift, within_m)
     keys = [0]
@@ -71,12 +76,14 @@ def key_frames(character: Character, poses: Poses, within_m: float) -> IntArray:
     return _mended(drift, np.array(keys), within_m)
 
 
-def drift_m(character: Character, poses: Poses, keys: IntArray) -> FloatArray:
+def drift_m(
+    character: Character, poses: Poses, keys: IntArray, tracks: Tracks = NO_TRACKS
+) -> FloatArray:
     """Return how far the skin is at most from where it is at each frame, ``(n,)``, with keys alone.
 
     It is the greatest over all `MIXES`; 0 at keys.
     """
-    drift = _Drift(character, poses)
+    drift = _Drift(character, poses, tracks)
     between = np.setdiff1d(np.arange(len(drift)), keys)
     found = np.zeros(len(drift))
     found[between] = _at(drift, keys, between)
@@ -84,12 +91,17 @@ def drift_m(character: Character, poses: Poses, keys: IntArray) -> FloatArray:
 
 
 class _Drift:
-    """How far the skin strays when poses between two frames are interpolated."""
+    """How far the skin strays when poses and weights between two frames are interpolated."""
 
-    def __init__(self, character: Character, poses: Poses) -> None:
+    def __init__(self, character: Character, poses: Poses, tracks: Tracks) -> None:
         self._skeleton = character.skeleton
-        self._corners_m = np.swapaxes(joint_boxes(character), -1, -2)  # (j, 3, 8)
+        self._corners_m = np.swapaxes(joint_boxes(character, tracks), -1, -2)  # (j, 3, 8)
         self._poses = poses
+        weights = tracks.among(character.shapes)
+        reach = _shape_reach_m(character)
+        self._formed_m = weights.over(len(poses.rotation_xyzw)).value * [
+            reach[name] for name in weights.names
+        ]
         self._meant = self._placed(poses)
 
     def __len__(self) -> int:
@@ -112,7 +124,15 @@ class _Drift:
         turned, moved = (a - b[frame] for a, b in zip(shown, self._meant, strict=True))
         # Affine in the point, so that no point of a box is further away than one of its corners.
         apart = turned @ self._corners_m + moved[..., None]
-        return np.sqrt(np.einsum("njxc,njxc->njc", apart, apart).max(axis=(1, 2)))
+        moved_m = np.sqrt(np.einsum("njxc,njxc->njc", apart, apart).max(axis=(1, 2)))
+        return np.asarray(moved_m + self._part_formed(first, last, frame, share[:, None]))
+
+    def _part_formed(
+        self, first: IntArray, last: IntArray, frame: IntArray, share: FloatArray
+    ) -> FloatArray:
+        """Return how far shapes alone stray at most: joints turn that, and make it no longer."""
+        a, b = self._formed_m[first], self._formed_m[last]
+        return np.abs(a + share * (b - a) - self._formed_m[frame]).sum(axis=-1)
 
     def _at(self, frame: IntArray) -> Poses:
         return Poses(*(part[frame] for part in self._poses))
@@ -121,6 +141,16 @@ class _Drift:
         """Return matrices ``(n, j, 3, 3)`` and positions ``(n, j, 3)`` in the world."""
         rotation, position_m = forward_kinematics(self._skeleton, *poses)
         return matrix_from_quaternion(rotation), position_m
+
+
+def _shape_reach_m(character: Character) -> dict[str, float]:
+    """Return how far each shape moves any point at weight 1."""
+    found: dict[str, float] = dict.fromkeys(character.shapes, 0.0)
+    for mesh in character.meshes:
+        for shape in mesh.shapes:
+            longest = np.linalg.norm(shape.offsets_m, axis=-1).max(initial=0.0)
+            found[shape.name] = max(found[shape.name], float(longest))
+    return found
 
 
 def _good(drift: _Drift, first: IntArray, gap: int, within_m: float) -> BoolArray:

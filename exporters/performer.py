@@ -129,12 +129,20 @@ def _define_acting(
 ) -> FloatArray:
     """Define an actor's animation, and return its bounding box in each frame, ``(n, 2, 3)``."""
     stage, character = root.GetPrim().GetStage(), actor.character
-    boxes = body_boxes(character, *actor.poses)
+    boxes = body_boxes(character, *actor.poses, actor.tracks)
     frames = None
     if keys_within_m is not None:
-        frames = key_frames(character, actor.poses, keys_within_m)
+        frames = key_frames(character, actor.poses, keys_within_m, actor.tracks)
         boxes = boxes + np.array([[-keys_within_m], [keys_within_m]])
-    define_animation(stage, animation, character.skeleton, *actor.poses, frames)
+    define_animation(
+        stage,
+        animation,
+        character.skeleton,
+        *actor.poses,
+        frames,
+        tracks=actor.tracks,
+        shapes=character.shapes,
+    )
     extents = StageFrame.of(stage).boxes(boxes)
     set_samples(root.CreateExtentAttr(), extents, Vt.Vec3fArray)
     return boxes

@@ -30,6 +30,9 @@ _HALF_HEIGHT = 0.5 * _HEIGHT_MM / _FOCAL_MM / 1.08  # room around what is seen
 MARGIN_M = 2.0
 """Margin of the ground around everything on it."""
 
+HELD = np.array([0.1, 0.2, 0.7])
+"""Size of a prop in a hand, over that of one that shows where it was drawn: it fits into a fist."""
+
 REACH_M = 0.3
 """Greatest extent of a prop from its position."""
 
@@ -102,9 +105,14 @@ def doodle_boxes(actor: Actor) -> list[FloatArray]:
 
 
 def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performance) -> None:
-    """Define a dart with the prop's poses, hidden while tracking was lost."""
-    time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
-    position, orientation, tracked = prop_poses(actor.doodles, time_s)
+    """Define a dart with the prop's poses, hidden while tracking was lost, or in a hand."""
+    held = actor.held
+    if held is None:
+        time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
+        position, orientation, tracked = prop_poses(actor.doodles, time_s)
+    else:
+        position, orientation = held.position_m, held.orientation_xyzw
+        tracked = np.ones(len(position), bool)
     frame = StageFrame.of(stage)
     places, turns = frame.points(position).tolist(), frame.rotations(orientation).tolist()
     prop = UsdGeom.Xform.Define(stage, path)
@@ -122,9 +130,11 @@ def define_prop(stage: Usd.Stage, path: str, actor: Actor, performance: Performa
     color = tuple(linear_from_srgb(PROP_RGB).tolist())
     # Each face has its own corners, so that the dart keeps its edges.
     faces = np.arange(_DART_FACES.size).reshape(-1, 3)
-    mesh = define_mesh(stage, f"{path}/Dart", _DART_M[_DART_FACES].reshape(-1, 3), faces, color)
-    # A guide: it often is inside the character, so viewers show it only when asked to.
-    mesh.CreatePurposeAttr(UsdGeom.Tokens.guide)
+    points_m = _DART_M[_DART_FACES].reshape(-1, 3) * (1.0 if held is None else HELD)
+    mesh = define_mesh(stage, f"{path}/Dart", points_m, faces, color)
+    if held is None:
+        # A guide: it often is inside the character, so viewers show it only when asked to.
+        mesh.CreatePurposeAttr(UsdGeom.Tokens.guide)
     material = define_material(stage, f"{path}/Materials/Dart", color)
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
 

@@ -2,7 +2,8 @@
 
 For each device, on one time axis: where the prop went and how fast, the tokens of its movement,
 the phrases of the Score, and their Effort; where tracking was lost is hatched. What the Score
-suggests, and no phrase explains, is hollow; phrases that are implied are pale.
+suggests, and no phrase explains, is hollow; phrases that are implied are pale. Where it was acted
+out by a character with shapes, their weights are below.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ from smd.recognition.tokens import Token, TokenRun
 from smd.smoothing import smooth
 
 if TYPE_CHECKING:
+    from smd.acting.performance import Performance
+    from smd.character.tracks import Tracks
     from smd.doodle import Doodle, Dropout, Recording
     from smd.score import Part, Score
 
@@ -34,6 +37,9 @@ DPI = 110
 _INCHES_PER_S, _LEAST_INCHES, _MOST_INCHES = 0.75, 13.0, 80.0
 _LANES = {"trajectory": 2.0, "moves": 0.42, "turns": 0.42, "phrase": 0.55, "effort": 0.9}
 """Height of each lane in inches, from top to bottom."""
+
+_TRACKS, _TRACKS_INCHES, _NAMED_TRACKS = "tracks", 0.9, 7
+"""The lane of an actor's tracks, where it has some, and how many of them have their name beside."""
 
 _SIDES_INCHES, _HEAD_INCHES, _FOOT_INCHES, _BETWEEN_INCHES = (0.95, 0.75), 0.62, 0.2, 0.6
 _LETTER_INCHES = 0.066  # at 8 points, of most names
@@ -59,7 +65,12 @@ class Block:
     half: Literal["", "upper", "lower"] = ""
 
 
-def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> None:
+def write_timeline(
+    recording: Recording,
+    score: Score,
+    png_path: Path | str,
+    performance: Performance | None = None,
+) -> None:
     """Draw a recording's trajectories, tokens, phrases and Effort on one time axis.
 
     Parameters
@@ -70,6 +81,8 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         What was understood of it.
     png_path
         The picture: 0.75 inches a second at 110 dots an inch, 13 to 80 inches wide.
+    performance
+        What was made of it, if its actors' tracks are to be drawn.
 
     Raises
     ------
@@ -81,7 +94,9 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
     last_s = max(doodle.time_s[-1] for doodle in recording.doodles)
     model = load_effort_model()
     colors = action_colors(phrase.action for part in score.performers for phrase in part.phrases)
-    figure, lanes = _sheet(len(parts), float(first_s), float(last_s))
+    tracks = _tracks_of(performance)
+    tracked = [part.device in tracks for part in parts]
+    figure, lanes = _sheet(tracked, float(first_s), float(last_s))
     for part, axes in zip(parts, lanes, strict=True):
         motions = list(_motions(recording.of(part.device)))
         strings = [
@@ -98,6 +113,8 @@ def write_timeline(recording: Recording, score: Score, png_path: Path | str) -> 
         _draw_blocks(axes["phrase"], _phrase_blocks(part, colors) + _suggestion_blocks(part))
         curves = [effort_over_time(motion, model) for _, motion in motions]
         _draw_effort(axes["effort"], part, curves)
+        if performance is not None and part.device in tracks:
+            _draw_tracks(axes[_TRACKS], tracks[part.device], performance)
         _mark_dropouts(axes, [d for d in recording.dropouts if d.device == part.device])
     figure.suptitle(
         f"{Path(score.recording or recording.source).name}    {first_s:.2f} to {last_s:.2f} s",
@@ -122,27 +139,38 @@ def _motions(doodles: Iterable[Doodle]) -> Iterable[tuple[Doodle, RigidMotion]]:
             continue
 
 
-def _sheet(count: int, first_s: float, last_s: float) -> tuple[Figure, list[dict[str, Any]]]:
+def _tracks_of(performance: Performance | None) -> dict[str, Tracks]:
+    """Return the tracks of each actor that has some, by its name."""
+    actors = () if performance is None else performance.actors
+    return {actor.name: actor.tracks for actor in actors if actor.tracks.names}
+
+
+def _sheet(
+    tracked: Sequence[bool], first_s: float, last_s: float
+) -> tuple[Figure, list[dict[str, Any]]]:
     """Return an empty figure with the lanes of each device, all on one time axis."""
     last_s = max(last_s, first_s + 0.1)
     width = float(np.clip(_INCHES_PER_S * (last_s - first_s), _LEAST_INCHES, _MOST_INCHES))
     block = sum(_LANES.values()) + _BETWEEN_INCHES
-    height = _HEAD_INCHES + max(count, 1) * block + _FOOT_INCHES
+    height = _HEAD_INCHES + max(len(tracked), 1) * block + _FOOT_INCHES
+    height += sum(tracked) * _TRACKS_INCHES
     figure = Figure(figsize=(width, height), facecolor="white")
     FigureCanvasAgg(figure)
     left, right = _SIDES_INCHES
     lanes, top = [], height - _HEAD_INCHES
-    for _ in range(count):
+    for has_tracks in tracked:
         axes = {}
-        for name, inches in _LANES.items():
+        inches_of = _LANES | ({_TRACKS: _TRACKS_INCHES} if has_tracks else {})
+        for name, inches in inches_of.items():
             top -= inches
             box = (left / width, top / height, (width - left - right) / width, inches / height)
             axes[name] = _lane(figure.add_axes(box), name, first_s, last_s)
-        axes["effort"].tick_params(bottom=True, labelbottom=True)
+        axes[name].tick_params(bottom=True, labelbottom=True)
         top -= _BETWEEN_INCHES
         lanes.append(axes)
     if lanes:
-        lanes[-1]["effort"].set_xlabel("seconds on the recording's clock", color=_FAINT, fontsize=9)
+        lowest = list(lanes[-1].values())[-1]
+        lowest.set_xlabel("seconds on the recording's clock", color=_FAINT, fontsize=9)
     return figure, lanes
 
 
@@ -156,7 +184,7 @@ def _lane(axes: Any, name: str, first_s: float, last_s: float) -> Any:
     axes.annotate(
         "" if name == "trajectory" else name,
         (0.0, 0.5),
-        (-30 if name == "effort" else -8, 0),
+        (-30 if name in ("effort", _TRACKS) else -8, 0),
         xycoords="axes fraction",
         textcoords="offset points",
         ha="right",
@@ -164,7 +192,7 @@ def _lane(axes: Any, name: str, first_s: float, last_s: float) -> Any:
         fontsize=9,
         color=_INK,
     )
-    if name not in ("trajectory", "effort"):
+    if name not in ("trajectory", "effort", _TRACKS):
         axes.set_ylim(0.0, 1.0)
         axes.set_yticks([])
     return axes
@@ -331,6 +359,27 @@ def _draw_effort(axes: Any, part: Part, curves: Sequence[EffortCurve]) -> None:
             labelspacing=0.2,
             borderaxespad=0.3,
         )
+
+
+def _draw_tracks(axes: Any, tracks: Tracks, performance: Performance) -> None:
+    """Draw an actor's tracks, those that change most first, the names of a few beside."""
+    time_s = performance.start_s + np.arange(len(performance)) / performance.rate_hz
+    most_first = np.argsort(-np.ptp(tracks.value, axis=0), kind="stable")
+    low, high = min(tracks.value.min(), 0.0), max(tracks.value.max(), 1.0)
+    axes.set_ylim(low - 0.08, high + 0.08)
+    axes.tick_params(left=True, labelleft=True)
+    for rank, k in enumerate(most_first.tolist()):
+        label = tracks.names[k] if rank < _NAMED_TRACKS else None
+        axes.plot(time_s, tracks.value[:, k], color=f"C{rank % 10}", lw=1.0, label=label)
+    axes.legend(
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+        fontsize=7,
+        frameon=False,
+        handlelength=0.8,
+        labelspacing=0.1,
+        borderaxespad=0.3,
+    )
 
 
 def _mark_dropouts(axes: dict[str, Any], dropouts: Sequence[Dropout]) -> None:

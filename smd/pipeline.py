@@ -78,6 +78,7 @@ def animate(
     timing: str = "feasible",
     stretch: float | str = 1.0,
     limits: Limits | None = None,
+    hold: bool = False,
     ground: Terrain | Path | str | None = None,
 ) -> Performance:
     """Act out a Score: each device a character, each phrase an action on the doodle's path.
@@ -99,8 +100,13 @@ def animate(
         What characters face by: "prop", where the prop faces, or "path", where it goes.
     timing
         When phrases are played: "drawn", as in the Score, or "feasible", as a body can.
+    stretch
+        How many times as long as the recording the performance lasts; "auto" for as long as most
+        phrases need.
     limits
         What a body can; by default a person.
+    hold
+        Whether characters hold their props in a hand.
     ground
         What they go on: a USD file of meshes, or a terrain; by default the level ground.
 
@@ -128,5 +134,6 @@ def animate(
         timing=timing,
         stretch=stretch,
         limits=limits,
+        hold=hold,
         terrain=read_terrain(ground) if isinstance(ground, str | Path) else ground,
     )

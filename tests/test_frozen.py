@@ -21,6 +21,7 @@ import laban
 import smd
 from actions_library.library import Library
 from laban.frozen import Frozen
+from smd.acting.grip import with_props_held
 from smd.acting.terrain import Terrain
 from smd.cast import Cast
 from smd.character.ik import limb_of
@@ -32,7 +33,8 @@ from smd.recognition.recognizer import Recognizer
 from smd.score import Score
 from smd.transfer.path import ground_path
 from smd.transfer.scene import scene_scale
-from tests.naive.puppet import performance, waving_clip
+from tests.naive.puppet import waving_clip
+from tests.naive.shaped import shaped_performance
 
 
 def classes() -> Iterator[type[Any]]:
@@ -60,7 +62,7 @@ FREEZING = sorted({kind for kind in classes() if freezes(kind)}, key=lambda kind
 
 def roots() -> list[Any]:
     """Objects that hold, all together, one of every class that freezes."""
-    played = performance(seconds=1.0, rate_hz=24.0)
+    played = shaped_performance(seconds=1.0, rate_hz=24.0)
     library = smd.load_library()
     actor = played.actors[0]
     skeleton = actor.character.skeleton
@@ -88,6 +90,7 @@ def roots() -> list[Any]:
         compile_automaton(pattern),
         Score((), "made up"),
         mass_of(skeleton),
+        with_props_held(played.actors),
     ]
 
 

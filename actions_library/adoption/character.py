@@ -94,6 +94,10 @@ def adopted_character(
             mesh,
             points_m=rotate(standing.turn_xyzw, mesh.points_m) + standing.shift_m,
             joint_indices=np.where(mesh.joint_weights > 0.0, mesh.joint_indices + 1, 0),
+            shapes=tuple(
+                replace(shape, offsets_m=rotate(standing.turn_xyzw, shape.offsets_m))
+                for shape in mesh.shapes
+            ),
         )
         for mesh in imported.meshes
     )

@@ -25,6 +25,7 @@ from smd.character.kinematics import forward_kinematics
 from smd.character.roles import BodyPlan, body_plan
 from smd.character.skeleton import Skeleton
 from smd.character.stages import stage_end_frames
+from smd.character.tracks import Tracks
 from smd.errors import CharacterError, ImportedFileError
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
@@ -63,11 +64,13 @@ class Adopted:
     clip : of the character.
     ground : how its ground root was found.
     same_skeleton : whether it was of this skeleton; else it was carried over by roles.
+    left_out : names of its tracks that the character has no shape for.
     """
 
     clip: Clip
     ground: Ground
     same_skeleton: bool
+    left_out: tuple[str, ...] = ()
 
 
 def adopted_clip(
@@ -115,7 +118,9 @@ def adopted_clip(
         except CharacterError as error:
             raise ImportedFileError(f"{imported.path}: {error}") from error
     cyclic = repeats(world_q) if cyclic is None else cyclic
+    tracks = animation.tracks.among(character.shapes)
     if cyclic and wants_first_frame(world_q):
+        tracks = tracks.at(np.append(np.arange(len(world_q)), 0.0))
         step = (pelvis[-1] - pelvis[0]) / (len(pelvis) - 1) * [1.0, 0.0, 1.0]
         world_q = np.concatenate([world_q, world_q[:1]])
         pelvis = np.concatenate([pelvis, pelvis[:1] + step * len(pelvis)])
@@ -145,9 +150,11 @@ def adopted_clip(
     )
     if ground.cyclic:
         rotation, translation = _closed(rotation, translation)
+        tracks = _closed_tracks(tracks)
     clip = _labelled(
         rotation,
         translation,
+        tracks,
         ground,
         skeleton,
         target,
@@ -156,7 +163,7 @@ def adopted_clip(
         animation.rate_hz,
         leg_m,
     )
-    return Adopted(clip, ground, same is not None)
+    return Adopted(clip, ground, same is not None, animation.tracks.without(character.shapes).names)
 
 
 class _Root(NamedTuple):
@@ -174,14 +181,27 @@ def _hovering_m(feet_m: FloatArray, rest_m: FloatArray, leg_m: float) -> float:
     return lowest if abs(lowest) < MOST_HOVERING * leg_m else 0.0
 
 
+def _closing(count: int) -> FloatArray:
+    """Return the share of the gap that is closed in each of a cycle's frames, ``(n, 1)``."""
+    u = np.clip((np.arange(count) / (count - 1) - (1.0 - CLOSING)) / CLOSING, 0.0, 1.0)
+    return (u * u * (3.0 - 2.0 * u))[:, None]
+
+
+def _closed_tracks(tracks: Tracks) -> Tracks:
+    """Return tracks of a cycle, their last values equal to the first, as `_closed` does it."""
+    if not tracks.names:
+        return tracks
+    gap = tracks.value[0] - tracks.value[-1]
+    return Tracks(tracks.names, tracks.value + _closing(len(tracks)) * gap)
+
+
 def _closed(rotation: FloatArray, translation: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return a cycle whose last frame equals its first, except for the ground root.
 
     The gap is distributed over its last part.
     """
     n = len(rotation)
-    u = np.clip((np.arange(n) / (n - 1) - (1.0 - CLOSING)) / CLOSING, 0.0, 1.0)
-    share = (u * u * (3.0 - 2.0 * u))[:, None]
+    share = _closing(n)
     gap = multiply(inverse(rotation[-1]), rotation[0])
     none = np.broadcast_to(IDENTITY_XYZW, gap.shape)
     closed = multiply(rotation, slerp(none, gap, np.broadcast_to(share, (n, rotation.shape[1]))))
@@ -313,6 +333,7 @@ def _local(
 def _labelled(
     rotation: FloatArray,
     translation: FloatArray,
+    tracks: Tracks,
     ground: Ground,
     skeleton: Skeleton,
     plan: BodyPlan,
@@ -346,4 +367,5 @@ def _labelled(
         contact_joints=tuple(skeleton.joints[feet[i]] for i in kept),
         contacts=touching[:, kept],
         cyclic=ground.cyclic,
+        tracks=tracks,
     )

@@ -18,6 +18,7 @@ from actions_library.library import Credit, Library
 from smd.cast import IDLE
 from smd.character.character import Character
 from smd.character.clip import Clip
+from smd.character.tracks import Tracks
 from smd.errors import LibraryError
 from smd.recognition.action import Action
 
@@ -60,7 +61,7 @@ def library_from(
     character = adopted_character(imported, name, front=front)
     idling = _idling(imported)
     if idling is None:
-        clip = _at_rest(character)
+        clip = _at_rest(character, imported.rest_tracks)
     else:
         adopted = adopted_clip(
             imported, idling, character, IDLE, travels=False, cyclic=True, front=front
@@ -83,8 +84,8 @@ def _idling(imported: Imported) -> Animation | None:
     return min(found, key=lambda a: (len(a.name), a.name), default=None)
 
 
-def _at_rest(character: Character) -> Clip:
-    """Return a clip of a character in its rest pose."""
+def _at_rest(character: Character, tracks: Tracks) -> Clip:
+    """Return a clip of a character in its rest pose; of one frame's tracks."""
     skeleton, frames = character.skeleton, 2
     return Clip(
         name=IDLE,
@@ -96,6 +97,7 @@ def _at_rest(character: Character) -> Clip:
         contact_joints=(),
         contacts=np.zeros((frames, 0), dtype=bool),
         cyclic=True,
+        tracks=tracks.among(character.shapes).at(np.zeros(frames)),
     )
 
 

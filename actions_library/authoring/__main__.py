@@ -1,13 +1,15 @@
-"""Write the shipped library: ``python -m actions_library.authoring FOLDER``."""
+"""Write a shipped library: ``python -m actions_library.authoring CHARACTER FOLDER``."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
+from actions_library.authoring.dog.library import write_dog
 from actions_library.authoring.examples import with_examples
 from actions_library.folder import write_library
 from actions_library.library import Credit, Library
@@ -30,13 +32,22 @@ def write_humanoid(folder: Path) -> Library:
     )
 
 
+CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
+    "humanoid": write_humanoid,
+    "dog": write_dog,
+}
+"""What writes each character's library."""
+
+
 def main(arguments: list[str]) -> int:
-    """Write the library into the folder named, and say what was made."""
-    if len(arguments) != 1:
-        print("usage: python -m actions_library.authoring FOLDER", file=sys.stderr)
+    """Write the character's library into the folder named, and say what was made."""
+    if len(arguments) != 2 or arguments[0] not in CHARACTERS:
+        names = "|".join(CHARACTERS)
+        print(f"usage: python -m actions_library.authoring {names} FOLDER", file=sys.stderr)
         return 2
+    character, folder = arguments
     try:
-        library = write_humanoid(Path(arguments[0]))
+        library = CHARACTERS[character](Path(folder))
     except SmdError as error:
         print(error, file=sys.stderr)
         return 3

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from actions_library.authoring.body_shape import DOWN_45, BodyFields, thumb_distance
 from actions_library.authoring.body_surface import adjacency
+from actions_library.authoring.rigging import other_side
 from smd.character.character import MAX_INFLUENCES
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray, IntArray
@@ -45,13 +46,13 @@ def body_weights(
     dense = np.zeros((len(points), len(skeleton)))
     other = points[:, 0] < 0
     for joint, share in shares.items():
-        twin = joint.replace("left_", "right_")
+        twin = other_side(joint)
         dense[~other, skeleton.index(joint)] += share[~other]
         dense[other, skeleton.index(twin)] += share[other]
     mean = adjacency(triangles, len(points))
     for _ in range(SMOOTHING_ROUNDS):
         dense = 0.5 * dense + 0.5 * (mean @ dense)
-    twins = [skeleton.index(_twin(joint)) for joint in skeleton.joints]
+    twins = [skeleton.index(other_side(joint)) for joint in skeleton.joints]
     return 0.5 * (dense + dense[mirror][:, twins])
 
 
@@ -71,7 +72,7 @@ def weights_of_skin(
     share = 1.0 / (distance + 0.002) ** 2
     share /= share.sum(axis=1, keepdims=True)
     weights = np.einsum("pk,pkj->pj", share, body_weights[left][near])
-    twins = [skeleton.index(_twin(joint)) for joint in skeleton.joints]
+    twins = [skeleton.index(other_side(joint)) for joint in skeleton.joints]
     swapped = weights[:, twins]
     x = points[:, :1]
     return np.where(x > 0, weights, np.where(x < 0, swapped, 0.5 * (weights + swapped)))
@@ -88,15 +89,6 @@ def strongest(dense: FloatArray) -> tuple[IntArray, FloatArray]:
     largest = np.take_along_axis(dense, order[:, : MAX_INFLUENCES + 1], axis=1)
     weights = largest[:, :MAX_INFLUENCES] - largest[:, MAX_INFLUENCES:]
     return order[:, :MAX_INFLUENCES], weights / weights.sum(axis=1, keepdims=True)
-
-
-def _twin(joint: str) -> str:
-    """Return the joint of the other side, or the joint itself."""
-    if joint.startswith("left_"):
-        return "right_" + joint.removeprefix("left_")
-    if joint.startswith("right_"):
-        return "left_" + joint.removeprefix("right_")
-    return joint
 
 
 def _step(value: FloatArray, low: float, high: float) -> FloatArray:

@@ -15,6 +15,9 @@ from smd.geometry.rotations import quaternion_from_euler, rotate
 _STEP_S = 1e-4
 """Step of the one-sided differences that give a swing its first and last velocity."""
 
+ALWAYS_S = 1e3
+"""Before and after any clip."""
+
 FREEING_S = 0.12
 """Time in which a foot that has left the ground comes under its leg's own keys, and back."""
 
@@ -85,11 +88,15 @@ class Plant:
 
 @dataclass(frozen=True, slots=True)
 class FootShape:
-    """Points of a foot from its ankle, at rest: where it rolls (m)."""
+    """Points of a foot from its ankle, at rest: where it rolls (m).
+
+    One that stands ``on_toes`` (a paw, a hoof) rolls over its ball either way, the toes flat.
+    """
 
     ball: FloatArray
     heel: FloatArray
     ankle_height: float
+    on_toes: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -151,7 +158,7 @@ def foot_path(
         on = (time_s >= plant.land - 1e-9) & (time_s <= plant.leave + 1e-9)
         row[on] = _standing(plant, shape, time_s[on])
         sole[on] = row[on, 4] == 0.0
-        toes[on] = row[on, 4] >= 0.0
+        toes[on] = shape.on_toes | (row[on, 4] >= 0.0)
     for before, after in pairwise(plants):
         on = (time_s > before.leave + 1e-9) & (time_s < after.land - 1e-9)
         if not on.any():
@@ -202,10 +209,11 @@ def _standing(plant: Plant, shape: FootShape, time_s: FloatArray) -> FloatArray:
     flat = _foot_rotation(yaw, np.zeros_like(yaw))
     yaw = yaw + turn
     rolled = _foot_rotation(yaw, pitch)
-    pivot = np.where((pitch[:, None] > 0.0) | (turn[:, None] != 0.0), shape.ball, shape.heel)
+    over_ball = shape.on_toes | (pitch[:, None] > 0.0) | (turn[:, None] != 0.0)
+    pivot = np.where(over_ball, shape.ball, shape.heel)
     stand = np.array([plant.left, shape.ankle_height, plant.ahead])
     ankle = stand + rotate(flat, pivot) - rotate(rolled, pivot)
-    toes = np.maximum(pitch, 0.0)
+    toes = pitch if shape.on_toes else np.maximum(pitch, 0.0)
     return np.column_stack([ankle, yaw, pitch, toes])
 
 

@@ -1,66 +1,46 @@
-"""The shipped humanoid's skeleton: 1.75 m tall, bound with its arms 45° down, facing +Z.
-
-Every joint's rest frame is turned as the world's, so that a rotation about a joint's own +X
-bends it forward, about +Y turns it left, about +Z tilts it to its right.
-"""
+"""The shipped humanoid's skeleton: 1.75 m tall, bound with its arms 45° down, facing +Z."""
 
 from __future__ import annotations
 
-import numpy as np
-
-from smd.character.skeleton import Role, Skeleton
+from actions_library.authoring.legs import RigLeg
+from actions_library.authoring.rigging import JointRow, skeleton_of, with_right_side
+from smd.character.skeleton import Skeleton
 
 HEIGHT_M = 1.75
 
-# (joint, parent, x, y, z in the world at rest, role); the left side, mirrored below.
-_CENTRE: list[tuple[str, str, tuple[float, float, float], Role]] = [
-    ("root", "", (0.0, 0.0, 0.0), "root"),
-    ("hips", "root", (0.0, 0.955, 0.0), "root"),
-    ("spine", "hips", (0.0, 1.045, -0.005), "spine"),
-    ("chest", "spine", (0.0, 1.155, -0.012), "spine"),
-    ("upper_chest", "chest", (0.0, 1.275, -0.012), "spine"),
-    ("neck", "upper_chest", (0.0, 1.455, -0.005), "spine"),
-    ("head", "neck", (0.0, 1.545, 0.015), "spine"),
-]
-_LEFT: list[tuple[str, str, tuple[float, float, float], Role]] = [
-    ("shoulder", "upper_chest", (0.030, 1.410, 0.005), "intermediate"),
-    ("upper_arm", "shoulder", (0.175, 1.405, -0.010), "intermediate"),
-    ("lower_arm", "upper_arm", (0.375, 1.205, -0.020), "intermediate"),
-    ("hand", "lower_arm", (0.553, 1.027, 0.000), "intermediate"),
-    ("thumb", "hand", (0.575, 1.000, 0.035), "end_effector"),
-    ("fingers", "hand", (0.615, 0.965, 0.008), "end_effector"),
-    ("upper_leg", "hips", (0.092, 0.905, 0.000), "intermediate"),
-    ("lower_leg", "upper_leg", (0.094, 0.492, 0.008), "intermediate"),
-    ("foot", "lower_leg", (0.096, 0.085, -0.020), "intermediate"),
-    ("toes", "foot", (0.100, 0.022, 0.115), "end_effector"),
-]
+_ROWS = (
+    JointRow("root", "", (0.0, 0.0, 0.0), "root"),
+    JointRow("hips", "root", (0.0, 0.955, 0.0), "root"),
+    JointRow("spine", "hips", (0.0, 1.045, -0.005), "spine"),
+    JointRow("chest", "spine", (0.0, 1.155, -0.012), "spine"),
+    JointRow("upper_chest", "chest", (0.0, 1.275, -0.012), "spine"),
+    JointRow("neck", "upper_chest", (0.0, 1.455, -0.005), "spine"),
+    JointRow("head", "neck", (0.0, 1.545, 0.015), "spine"),
+    JointRow("left_shoulder", "upper_chest", (0.030, 1.410, 0.005), "intermediate"),
+    JointRow("left_upper_arm", "left_shoulder", (0.175, 1.405, -0.010), "intermediate"),
+    JointRow("left_lower_arm", "left_upper_arm", (0.375, 1.205, -0.020), "intermediate"),
+    JointRow("left_hand", "left_lower_arm", (0.553, 1.027, 0.000), "intermediate"),
+    JointRow("left_thumb", "left_hand", (0.575, 1.000, 0.035), "end_effector"),
+    JointRow("left_fingers", "left_hand", (0.615, 0.965, 0.008), "end_effector"),
+    JointRow("left_upper_leg", "hips", (0.092, 0.905, 0.000), "intermediate"),
+    JointRow("left_lower_leg", "left_upper_leg", (0.094, 0.492, 0.008), "intermediate"),
+    JointRow("left_foot", "left_lower_leg", (0.096, 0.085, -0.020), "intermediate"),
+    JointRow("left_toes", "left_foot", (0.100, 0.022, 0.115), "end_effector"),
+)
+
+LEGS = {
+    side: RigLeg(
+        f"{side}_leg",
+        f"{side}_upper_leg",
+        f"{side}_lower_leg",
+        f"{side}_foot",
+        f"{side}_toes",
+        heel_behind_m=0.078,
+    )
+    for side in ("left", "right")
+}
 
 
 def humanoid_skeleton() -> Skeleton:
     """Return the skeleton: 27 joints, all rest rotations identity."""
-    rows = list(_CENTRE)
-    for side, sign in (("left", 1.0), ("right", -1.0)):
-        for name, parent, (x, y, z), role in _LEFT:
-            central = parent in {row[0] for row in _CENTRE}
-            rows.append(
-                (
-                    f"{side}_{name}",
-                    parent if central else f"{side}_{parent}",
-                    (sign * x, y, z),
-                    role,
-                )
-            )
-    joints = tuple(row[0] for row in rows)
-    parents = np.array([joints.index(row[1]) if row[1] else -1 for row in rows])
-    world = np.array([row[2] for row in rows])
-    local = world - np.where(parents[:, None] >= 0, world[parents], 0.0)
-    world_from_bind = np.tile(np.eye(4), (len(joints), 1, 1))
-    world_from_bind[:, :3, 3] = world
-    return Skeleton(
-        joints=joints,
-        parents=parents,
-        rest_rotation_xyzw=np.tile([0.0, 0.0, 0.0, 1.0], (len(joints), 1)),
-        rest_translation_m=local,
-        world_from_bind=world_from_bind,
-        roles=tuple(row[3] for row in rows),
-    )
+    return skeleton_of(with_right_side(_ROWS))

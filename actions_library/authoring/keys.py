@@ -18,6 +18,9 @@ from smd.geometry.arrays import FloatArray
 
 Vector = tuple[float, float, float]
 
+Numbers = dict[str, FloatArray]
+"""Values over time, by name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Place:
@@ -194,3 +197,13 @@ def part_curve(
         lag_s=LAG_S.get(part, 0.0),
         cyclic=cyclic,
     )
+
+
+def columns_of(part: ArmKey | Hand | LegKey, numbers: FloatArray) -> Numbers:
+    """Return a part's numbers ``(n, c)`` by its fields' names; directions have three columns."""
+    widths = {field.name: np.size(getattr(part, field.name)) for field in fields(part)}
+    ends = np.cumsum(list(widths.values()))
+    return {
+        name: numbers[:, end - width : end] if width > 1 else numbers[:, end - 1]
+        for (name, width), end in zip(widths.items(), ends, strict=True)
+    }

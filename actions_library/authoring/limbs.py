@@ -1,15 +1,13 @@
-"""Arms and legs of the humanoid, posed by their keys, or by where hands and feet are put."""
+"""Arms of the humanoid, posed by their keys, or by where hands are put."""
 
 from __future__ import annotations
-
-from dataclasses import fields
 
 import numpy as np
 
 from actions_library.authoring.feet import FootPath, FootShape
-from actions_library.authoring.keys import ArmKey, Hand, LegKey
+from actions_library.authoring.keys import ArmKey, Hand, Numbers, columns_of
 from actions_library.authoring.pose import Pose
-from smd.character.ik import Limb, limb_of, two_bone_ik
+from smd.character.ik import limb_of, two_bone_ik
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
@@ -24,23 +22,13 @@ from smd.geometry.rotations import (
     slerp,
 )
 
-LEG_SOFTNESS = 0.004
-"""Last part of a leg's reach that softens; short, since a foot that falls short slides."""
-
 ARM_SOFTNESS = 0.02
-"""The same of an arm: where a hand is put, it may fall a little short."""
-
-STRAIGHTEST_DEG = 8.0
-"""Least bend of a knee whose foot is put somewhere."""
-
-HEEL_BEHIND_ANKLE_M = 0.078
+"""Last part of an arm's reach that softens: where a hand is put, it may fall a little short."""
 
 WRIST_HEIGHT_M, HEEL_OF_HAND_M = 0.034, 0.012
 """Of a flat hand: the wrist above the ground, and the heel of the hand behind it."""
 
 _FOREARM_TWIST_SHARE = 0.5
-
-Numbers = dict[str, FloatArray]
 
 
 def pose_arm(
@@ -62,7 +50,7 @@ def pose_arm(
     palm
         Where the flat hand goes on the ground, which overrules both.
     """
-    arm = _columns(ArmKey(), arm_numbers)
+    arm = columns_of(ArmKey(), arm_numbers)
     mirror = np.array([out, 1.0, 1.0])
     chest = pose.rotation[:, pose.skeleton.index("upper_chest")]
     frame = slerp(np.broadcast_to(IDENTITY_XYZW, chest.shape), chest, arm["follow"])
@@ -111,7 +99,7 @@ def pose_arm(
 
 def _held(numbers: FloatArray, out: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return where a hand is put, how it is turned, and how firmly: place, rotation, hold."""
-    hand = _columns(Hand(), numbers)
+    hand = columns_of(Hand(), numbers)
     mirror = np.array([out, 1.0, 1.0])
     turned = _hand_rotation(hand["fingers"] * mirror, hand["palm"] * mirror, out)
     return hand["place"] * mirror, turned, hand["hold"]
@@ -144,16 +132,6 @@ def _shoulder(to: FloatArray, arm: Numbers, out: float) -> FloatArray:
     return quaternion_from_euler("YXZ", np.radians(degrees))
 
 
-def foot_shape(skeleton: Skeleton, side: str) -> FootShape:
-    """Return a foot's measures: the ball at the toes' joint, the heel on the ground."""
-    ankle_height = float(skeleton.world_from_bind[skeleton.index(f"{side}_foot"), 1, 3])
-    return FootShape(
-        ball=skeleton.rest_translation_m[skeleton.index(f"{side}_toes")],
-        heel=np.array([0.0, -ankle_height, -HEEL_BEHIND_ANKLE_M]),
-        ankle_height=ankle_height,
-    )
-
-
 def palm_shape(skeleton: Skeleton, side: str) -> FootShape:
     """Return a flat hand's measures, as a foot's: it rolls over the knuckles."""
     out = 1.0 if side == "left" else -1.0
@@ -168,84 +146,3 @@ def palm_shape(skeleton: Skeleton, side: str) -> FootShape:
 def _flat_hand(out: float) -> FloatArray:
     """Return the rotation ``(1, 4)`` of a hand whose fingers point ahead, the palm down."""
     return _hand_rotation(np.array([[0.0, 0.0, 1.0]]), np.array([[0.0, -1.0, 0.0]]), out)
-
-
-def pose_leg(
-    pose: Pose, side: str, out: float, numbers: FloatArray | None, path: FootPath | None
-) -> None:
-    """Pose a leg below hips that are posed: by its keys, by its foot's path, or between both.
-
-    A knee points where foot and hips do, between them; in the air where its key says.
-    """
-    upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
-    limb = limb_of(pose.skeleton, upper, lower, foot, [0.0, 0.0, 1.0])
-    if path is None:
-        if numbers is None:
-            raise ValueError(f"{side} leg: expected keys or plants")
-        _free_leg(pose, side, out, numbers, limb)
-        return
-    free = np.zeros(len(path.free))
-    ankle, turned, toes = path.ankle_m, path.rotation_xyzw, -path.toes_up_rad
-    base = pose.at(upper)
-    left = np.broadcast_to([1.0, 0.0, 0.0], base.shape)
-    hips = pose.rotation[:, pose.skeleton.index("hips")]
-    axis = normalized(rotate(hips, left) + rotate(turned, left))
-    pole = np.cross(axis, base - ankle)
-    if path.free.any():
-        if numbers is None:
-            raise ValueError(f"{side} leg: expected keys for its way through the air")
-        free = path.free
-        _free_leg(pose, side, out, numbers, limb)
-        own = {joint: pose.skeleton.index(joint) for joint in (upper, lower, foot, f"{side}_toes")}
-        knee = pose.position[:, own[lower]] - 0.5 * (base + pose.position[:, own[foot]])
-        ankle = ankle + free[:, None] * (pose.position[:, own[foot]] - ankle)
-        turned = slerp(turned, pose.rotation[:, own[foot]], free)
-        pole = normalized(pole) + free[:, None] * (normalized(knee) - normalized(pole))
-        away = ankle - base  # halfway between two places that it reaches, it may be out of reach
-        reach = float(limb.span_m(np.radians(STRAIGHTEST_DEG))) / np.linalg.norm(away, axis=-1)
-        ankle = np.where(free[:, None] > 0.0, base + np.minimum(reach, 1.0)[:, None] * away, ankle)
-        toes = (1.0 - free) * toes + free * 0.3 * np.radians(_columns(LegKey(), numbers)["point"])
-    upper_q, lower_q = two_bone_ik(limb, base, ankle, pole, softness=LEG_SOFTNESS)
-    pose.set(upper, upper_q)
-    pose.set(lower, lower_q)
-    pose.set(foot, turned)
-    pose.turn(f"{side}_toes", quaternion_about([1.0, 0.0, 0.0], toes))
-
-
-def leg_room_m(pose: Pose, side: str, path: FootPath) -> FloatArray:
-    """Return how far the hips may rise until a leg is as straight as it gets, ``(n,)``.
-
-    Below 0 they must sink, or the foot falls short. Without limit where the leg has its own keys.
-    """
-    upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
-    limb = limb_of(pose.skeleton, upper, lower, foot, [0.0, 0.0, 1.0])
-    to = path.ankle_m - pose.at(upper)
-    straight = float(limb.span_m(np.radians(STRAIGHTEST_DEG)))
-    aside = np.minimum(to[:, 0] ** 2 + to[:, 2] ** 2, straight**2)
-    return np.where(path.free > 0.0, np.inf, np.sqrt(straight**2 - aside) + to[:, 1])
-
-
-def _free_leg(pose: Pose, side: str, out: float, numbers: FloatArray, limb: Limb) -> None:
-    leg = _columns(LegKey(), numbers)
-    mirror = np.array([out, 1.0, 1.0])
-    hips = pose.rotation[:, pose.skeleton.index("hips")]
-    upper, lower, foot = f"{side}_upper_leg", f"{side}_lower_leg", f"{side}_foot"
-    base = pose.at(upper)
-    to = rotate(hips, normalized(leg["to"]) * mirror)
-    knee = rotate(hips, normalized(leg["knee"]) * mirror)
-    span = limb.span_m(np.radians(leg["bend"]))[:, None]
-    upper_q, lower_q = two_bone_ik(limb, base, base + to * span, knee)
-    pose.set(upper, upper_q)
-    pose.set(lower, lower_q)
-    pose.turn(foot, quaternion_about([1.0, 0.0, 0.0], np.radians(leg["point"])))
-    pose.turn(f"{side}_toes", quaternion_about([1.0, 0.0, 0.0], np.radians(0.3 * leg["point"])))
-
-
-def _columns(part: ArmKey | Hand | LegKey, numbers: FloatArray) -> Numbers:
-    """Return a part's numbers ``(n, c)`` by its fields' names; directions have three columns."""
-    widths = {field.name: np.size(getattr(part, field.name)) for field in fields(part)}
-    ends = np.cumsum(list(widths.values()))
-    return {
-        name: numbers[:, end - width : end] if width > 1 else numbers[:, end - 1]
-        for (name, width), end in zip(widths.items(), ends, strict=True)
-    }

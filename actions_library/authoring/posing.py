@@ -8,14 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from actions_library.authoring.feet import FootPath, FootShape, Plant, foot_path
-from actions_library.authoring.keys import PARTS, Key, part_curve
-from actions_library.authoring.limbs import (
-    foot_shape,
-    leg_room_m,
-    palm_shape,
-    pose_arm,
-    pose_leg,
-)
+from actions_library.authoring.humanoid import LEGS
+from actions_library.authoring.keys import PARTS, Key, Numbers, part_curve
+from actions_library.authoring.legs import foot_shape, leg_room_m, pose_leg
+from actions_library.authoring.limbs import palm_shape, pose_arm
 from actions_library.authoring.mass import SIDES, centre_of_mass
 from actions_library.authoring.pose import Pose
 from actions_library.authoring.soles import on_more_than_soles, soles_in_world
@@ -33,8 +29,6 @@ _NECK_SHARE = 0.45
 
 _ROUNDS = 3
 """How often the hips are moved: the mass centre does not quite follow them."""
-
-Numbers = dict[str, FloatArray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +78,7 @@ def make_clip(
             if part in numbers:
                 numbers[part] = _carried(numbers[part], part, ground)
     time_s = np.arange(frames) / RATE_HZ
-    feet = _paths(skeleton, foot_shape, left_foot, right_foot, time_s)
+    feet = _paths(skeleton, _humanoid_foot, left_foot, right_foot, time_s)
     palms = _paths(skeleton, palm_shape, left_palm, right_palm, time_s)
     pose = _posed(skeleton, numbers, ground, feet, palms)
     if any(feet.values()):
@@ -124,6 +118,10 @@ def _paths(
     }
 
 
+def _humanoid_foot(skeleton: Skeleton, side: str) -> FootShape:
+    return foot_shape(skeleton, LEGS[side])
+
+
 def _posed(
     skeleton: Skeleton,
     numbers: Numbers,
@@ -138,13 +136,13 @@ def _posed(
     for side, out in (("left", 1.0), ("right", -1.0)):
         arm, hand = numbers[f"{side}_arm"], numbers.get(f"{side}_hand")
         pose_arm(pose, side, out, arm, hand, palms[side])
-        pose_leg(pose, side, out, numbers.get(f"{side}_leg"), feet[side])
+        pose_leg(pose, LEGS[side], numbers.get(f"{side}_leg"), feet[side])
     return pose
 
 
 def _on_feet(pose: Pose, feet: Mapping[str, FootPath | None], *, cyclic: bool) -> CarriedBody:
     """Return the body's mass centre and what carries it."""
-    rooms = [leg_room_m(pose, side, path) for side, path in feet.items() if path]
+    rooms = [leg_room_m(pose, LEGS[side], path) for side, path in feet.items() if path]
     soles = soles_in_world(pose.skeleton, pose.rotation, pose.position)
     return CarriedBody(
         centre_m=centre_of_mass(pose.skeleton, pose.position),

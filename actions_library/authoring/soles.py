@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from actions_library.authoring.feet import FootShape
-from actions_library.authoring.limbs import foot_shape
+from actions_library.authoring.humanoid import LEGS
+from actions_library.authoring.legs import foot_shape
 from actions_library.authoring.mass import SIDES
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import BoolArray, FloatArray
@@ -42,7 +43,7 @@ def sole_parts(skeleton: Skeleton) -> list[tuple[str, FloatArray]]:
         (f"{side}_{joint}", points)
         for side in SIDES
         for joint, points in zip(
-            ("foot", "toes"), sole_points(foot_shape(skeleton, side)), strict=True
+            ("foot", "toes"), sole_points(foot_shape(skeleton, LEGS[side])), strict=True
         )
     ]
 

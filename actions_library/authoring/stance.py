@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from actions_library.authoring.curves import eased
-from actions_library.authoring.feet import Plant
+from actions_library.authoring.feet import ALWAYS_S, Plant
 from actions_library.authoring.keys import ArmKey, Key, Place, Turn
 from actions_library.authoring.posing import RATE_HZ, RootCourse
 
-_ALWAYS_S = 1e3
-LEFT_STANCE = Plant(-_ALWAYS_S, _ALWAYS_S, left=0.1025, ahead=0.0225, yaw=9.0)
-RIGHT_STANCE = Plant(-_ALWAYS_S, _ALWAYS_S, left=-0.1025, ahead=-0.0225, yaw=-12.0)
+LEFT_STANCE = Plant(-ALWAYS_S, ALWAYS_S, left=0.1025, ahead=0.0225, yaw=9.0)
+RIGHT_STANCE = Plant(-ALWAYS_S, ALWAYS_S, left=-0.1025, ahead=-0.0225, yaw=-12.0)
 
 STAND = Key(
     0.0,

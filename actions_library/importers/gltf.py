@@ -14,6 +14,7 @@ References
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,8 @@ from actions_library.importers.imported import (
     to_y_up,
 )
 from laban.faults import Fault
+from smd.character.character import shape_names
+from smd.character.tracks import Tracks
 from smd.geometry.arrays import FloatArray
 
 
@@ -48,11 +51,14 @@ def read(path: Path, asked: ImportOptions) -> Imported:
     bind_world, inverse_binds = _binds(file, joints, parents, rest[joints])
     names = [str(file.node(node).get("name") or "") for node in joints]
     skeleton = skeleton_of(names, parents, rest[joints], bind_world)
-    shapes = read_shapes(file)
-    meshes, left_out = read_meshes(file, nodes.parent, joints, bind_world, inverse_binds, rest)
-    animations, more = read_animations(file, nodes, shapes, joints, parents, change)
-    notes = (*left_out, *more)
-    return Imported(path, skeleton, tuple(meshes), tuple(animations), notes, shapes.names)
+    found = read_shapes(file)
+    animations, left_out = read_animations(file, nodes, found, joints, parents, change)
+    shapes = found.called_alike([animation.tracks for animation in animations])
+    meshes, more = read_meshes(file, nodes.parent, joints, bind_world, inverse_binds, rest, shapes)
+    kept = shape_names(meshes)
+    animations = [replace(each, tracks=each.tracks.among(kept)) for each in animations]
+    resting = Tracks(found.names, found.rest[None]).among(kept)
+    return Imported(path, skeleton, tuple(meshes), tuple(animations), (*more, *left_out), resting)
 
 
 def _binds(

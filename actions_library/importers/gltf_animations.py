@@ -18,6 +18,7 @@ from actions_library.importers.imported import (
     rigid,
 )
 from laban.faults import Fault
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import normalized, sign_continuous, slerp
 
@@ -97,7 +98,9 @@ def _tracks(file: GltfFile, where: str, i: int, chain: set[int], shapes: Shapes)
         node = file.index(target["node"], "nodes", where)
         if (node, path) in found:
             raise Fault(f"{where}, node {node}", f"one channel of {path}", "two")
-        if path == "weights" and node in shapes.columns:
+        if path == "weights":
+            if node not in shapes.columns:
+                raise Fault(f"{where}, node {node}", "morph targets of its weights", "none")
             own = shapes.columns[node]
             found[node, path] = _track(file, where, sampler, node, path, own.stop - own.start)
         elif path in PARTS and node in chain:
@@ -169,16 +172,16 @@ def _posed(
     return sign_continuous(rotation) if len(blocks) > 1 else rotation, translation
 
 
-def _weights(shapes: Shapes, tracks: Sequence[_Track], at_s: FloatArray) -> FloatArray | None:
-    """Return the weights of all shapes ``(n, s)``; None where no channel moves one."""
+def _weights(shapes: Shapes, tracks: Sequence[_Track], at_s: FloatArray) -> Tracks:
+    """Return the weights of all shapes at some times; none where all rest at 0."""
     moving = [track for track in tracks if track.path == "weights"]
-    if not moving:
-        return None
+    if not moving and not shapes.rest.any():
+        return NO_TRACKS
     weights = np.tile(shapes.rest, (len(at_s), 1))
     for track in moving:
         own = sampled(track.times, track.values, at_s, track.manner, track.path)
         weights[:, shapes.columns[track.node]] = own
-    return weights
+    return Tracks(shapes.names, weights)
 
 
 def _rate_hz(times: list[FloatArray]) -> float:

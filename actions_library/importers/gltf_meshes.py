@@ -7,19 +7,24 @@ import struct
 import warnings
 import zlib
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from actions_library.importers.gltf_file import GltfFile
+from actions_library.importers.gltf_shapes import Shapes
 from actions_library.importers.imported import (
+    MOST_OFFSETS,
     MOST_POINTS,
     MOST_TRIANGLES,
     bound,
+    bound_shape,
     strongest,
     unique_names,
 )
 from laban.faults import Fault
+from smd.character.blend_shape import BlendShape
 from smd.character.character import Mesh
 from smd.geometry.arrays import FloatArray, IntArray
 
@@ -39,6 +44,7 @@ def read_meshes(
     bind: FloatArray,
     inverse_binds: list[FloatArray],
     rest: FloatArray,
+    shapes: Shapes,
 ) -> tuple[list[Mesh], list[str]]:
     """Return the meshes that joints move, in the bind pose, and what was left out.
 
@@ -54,10 +60,12 @@ def read_meshes(
         Of each skin's joints.
     rest
         ``(n, 4, 4)`` each node's matrix at rest.
+    shapes
+        The file's morph targets.
     """
     parts: list[_Part] = []
     notes: list[str] = []
-    loose = points_so_far = faces_so_far = 0
+    loose = points_so_far = faces_so_far = offsets_so_far = 0
     at_of = {node: j for j, node in enumerate(joints)}
     pictures = _Pictures(file)
     for node in range(file.count("nodes")):
@@ -84,6 +92,7 @@ def read_meshes(
             if points_so_far > MOST_POINTS or faces_so_far > MOST_TRIANGLES:
                 most = f"at most {MOST_POINTS} points and {MOST_TRIANGLES} triangles in all"
                 raise Fault(where, most, f"{points_so_far} and {faces_so_far}")
+            formed = shapes.of(file, node, primitive, len(points), where)
             if "skin" in item:
                 skin = file.index(item["skin"], "skins", f"nodes[{node}]")
                 indices, weights = _influences(file, primitive, len(points), where)
@@ -92,16 +101,23 @@ def read_meshes(
                     raise Fault(where, f"joints below {len(own)}", indices.max())
                 matrices = bind[own] @ inverse_binds[skin]
                 points = bound(points, weights, indices, matrices)
+                formed = tuple(bound_shape(shape, weights, indices, matrices) for shape in formed)
                 indices = np.asarray(own, dtype=np.int64)[indices]
             else:
                 at = at_of[holder]
                 way = bind[at] @ np.linalg.inv(rest[holder]) @ rest[node]
                 points = points @ way[:3, :3].T + way[:3, 3]
+                formed = tuple(
+                    replace(shape, offsets_m=shape.offsets_m @ way[:3, :3].T) for shape in formed
+                )
                 indices = np.full((len(points), 4), at, dtype=np.int64)
                 weights = np.tile([1.0, 0.0, 0.0, 0.0], (len(points), 1))
             name = str(item.get("name") or mesh.get("name") or f"mesh_{node}")
             rgb = _colors(file, primitive, triangles, pictures, where)
-            parts.append(_Part(name, points, triangles, indices, weights, rgb))
+            parts.append(_Part(name, points, triangles, indices, weights, rgb, formed))
+            offsets_so_far += sum(len(shape.indices) for shape in formed)
+            if offsets_so_far > MOST_OFFSETS:
+                raise Fault(where, f"at most {MOST_OFFSETS} offsets in all", offsets_so_far)
     if loose:
         notes.append(f"{loose} meshes that no joint moves are not kept")
     absent = [str(source) for source, pixels in pictures.found.items() if pixels is None]
@@ -111,7 +127,7 @@ def read_meshes(
 
 
 class _Part(NamedTuple):
-    """A primitive's points, triangles, influences, and the sRGB colour of each triangle."""
+    """A primitive's points, triangles, influences, sRGB colour of each triangle, and shapes."""
 
     name: str
     points: FloatArray
@@ -119,6 +135,7 @@ class _Part(NamedTuple):
     indices: IntArray
     weights: FloatArray
     rgb: FloatArray
+    shapes: tuple[BlendShape, ...]
 
 
 def _by_color(parts: list[_Part]) -> list[Mesh]:
@@ -139,9 +156,28 @@ def _by_color(parts: list[_Part]) -> list[Mesh]:
         largest = int(np.bincount(owner[here]).argmax())
         used, faces = np.unique(triangles[here], return_inverse=True)
         kept = (points[used], faces.reshape(-1, 3), indices[used], weights[used])
-        cuts.append((parts[largest].name, kept, _linear(palette[color])))
-    names = unique_names([name for name, _, _ in cuts])
-    return [Mesh(n, *kept, rgb) for n, (_, kept, rgb) in zip(names, cuts, strict=True)]
+        shapes = _shapes_of(parts, starts.tolist(), used)
+        cuts.append(Mesh(parts[largest].name, *kept, _linear(palette[color]), shapes))
+    names = unique_names([mesh.name for mesh in cuts])
+    return [replace(mesh, name=name) for mesh, name in zip(cuts, names, strict=True)]
+
+
+def _shapes_of(
+    parts: Sequence[_Part], starts: Sequence[int], used: IntArray
+) -> tuple[BlendShape, ...]:
+    """Return what shapes make of some points of all parts; a part's points have a start."""
+    found: dict[str, list[tuple[IntArray, FloatArray]]] = {}
+    for part, start in zip(parts, starts, strict=False):
+        for shape in part.shapes:
+            place = np.searchsorted(used, shape.indices + start)
+            place = np.minimum(place, len(used) - 1)
+            here = used[place] == shape.indices + start
+            if here.any():
+                found.setdefault(shape.name, []).append((place[here], shape.offsets_m[here]))
+    return tuple(
+        BlendShape(name, *(np.concatenate(side) for side in zip(*moved, strict=True)))
+        for name, moved in found.items()
+    )
 
 
 def _few(rgb: FloatArray) -> tuple[IntArray, FloatArray]:

@@ -10,9 +10,11 @@ import numpy as np
 
 from actions_library.naming import numbered
 from laban.faults import Fault, printable
-from smd.character.character import MAX_INFLUENCES, Mesh
+from smd.character.blend_shape import BlendShape
+from smd.character.character import MAX_INFLUENCES, Mesh, shape_names
 from smd.character.roles import body_plan
 from smd.character.skeleton import Skeleton
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.errors import ImportedFileError
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import (
@@ -39,6 +41,9 @@ MOST_ANIMATIONS = 2000
 MOST_POINTS, MOST_TRIANGLES = 1_000_000, 2_000_000
 """Of all of a file's meshes."""
 
+MOST_SHAPES, MOST_OFFSETS = 4096, 10_000_000
+"""Of all of a file's meshes: shapes, and points that they move."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Animation:
@@ -50,14 +55,14 @@ class Animation:
     rate_hz : frames per second.
     rotation_xyzw : (n, j, 4) of each joint in its parent's frame, or the world's for a root.
     translation_m : (n, j, 3).
-    shape_weights : (n, s) of the file's shapes; None where it moves none of them.
+    tracks : (n, …) weights of shapes.
     """
 
     name: str
     rate_hz: float
     rotation_xyzw: FloatArray
     translation_m: FloatArray
-    shape_weights: FloatArray | None = None
+    tracks: Tracks = NO_TRACKS
 
     @property
     def duration_s(self) -> float:
@@ -76,7 +81,7 @@ class Imported:
     meshes : bound to it; none in files of movement alone.
     animations : by the file's order.
     notes : what the file holds and was left out, one line each.
-    shapes : names of morph targets and blend shapes, made unique.
+    rest_tracks : (1, …) weights of shapes where nothing animates them.
     """
 
     path: Path
@@ -84,7 +89,12 @@ class Imported:
     meshes: tuple[Mesh, ...]
     animations: tuple[Animation, ...]
     notes: tuple[str, ...] = ()
-    shapes: tuple[str, ...] = ()
+    rest_tracks: Tracks = NO_TRACKS
+
+    @property
+    def shapes(self) -> tuple[str, ...]:
+        """Names of its meshes' shapes, each once."""
+        return shape_names(self.meshes)
 
     def animation(self, name: str | None) -> Animation:
         """Return the animation of a name, or the only one.
@@ -124,12 +134,12 @@ class Imported:
             bad = Fault(f"clip {animation.name!r}", within, span)
             raise bad.of(self.path, ImportedFileError)
         rows = slice(first, final + 1)
-        weights = animation.shape_weights
+        frames = np.arange(first, final + 1, dtype=np.float64)
         return replace(
             animation,
             rotation_xyzw=animation.rotation_xyzw[rows],
             translation_m=animation.translation_m[rows],
-            shape_weights=None if weights is None else weights[rows],
+            tracks=animation.tracks.at(frames),
         )
 
 
@@ -249,6 +259,16 @@ def strongest(indices: IntArray, weights: FloatArray) -> tuple[IntArray, FloatAr
     total = weights.sum(axis=1, keepdims=True)
     weights = np.where(total > 1e-9, weights / np.maximum(total, 1e-9), [1.0, 0.0, 0.0, 0.0])
     return np.where(weights > 0.0, indices, 0).astype(np.int64), weights
+
+
+def bound_shape(
+    shape: BlendShape, weights: FloatArray, indices: IntArray, m: FloatArray
+) -> BlendShape:
+    """Return a shape whose offsets go with their points, as `bound` moves these."""
+    turns = m.copy()
+    turns[:, :3, 3] = 0.0
+    own = shape.indices
+    return replace(shape, offsets_m=bound(shape.offsets_m, weights[own], indices[own], turns))
 
 
 def bound(points: FloatArray, weights: FloatArray, indices: IntArray, m: FloatArray) -> FloatArray:

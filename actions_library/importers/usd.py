@@ -14,7 +14,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -26,13 +26,14 @@ from actions_library.importers.imported import (
     checked_unit,
     skeleton_of,
     to_y_up,
-    unique_names,
 )
 from actions_library.importers.usd_animation import chained, read_animation
 from actions_library.importers.usd_layers import check_layers, check_used, first_line
 from actions_library.importers.usd_meshes import read_meshes, skeleton_of_mesh
+from actions_library.importers.usd_shapes import names_of_shapes
 from actions_library.importers.usd_values import numbers, texts
 from laban.faults import Fault
+from smd.character.character import shape_names
 from smd.geometry.arrays import FloatArray
 
 
@@ -58,7 +59,8 @@ def _read(path: Path, stage: Usd.Stage, asked: ImportOptions) -> Imported:
     unit = UsdGeom.GetStageMetersPerUnit(stage) if asked.unit_m is None else asked.unit_m
     change[:3, :3] = to_y_up(axis) * checked_unit(unit)
     bound = [mesh for mesh in meshes if skeleton_of_mesh(mesh) == chosen.GetPath()]
-    return _imported(path, stage, chosen, bound, change, len(skeletons))
+    known = names_of_shapes(meshes) if meshes else None
+    return _imported(path, stage, chosen, bound, known, change, len(skeletons))
 
 
 def _chosen(
@@ -90,6 +92,7 @@ def _imported(
     stage: Usd.Stage,
     skeleton: UsdSkel.Skeleton,
     meshes: Sequence[UsdGeom.Mesh],
+    known: Collection[str] | None,
     change: FloatArray,
     count: int,
 ) -> Imported:
@@ -111,14 +114,14 @@ def _imported(
     here = rest[0] @ np.linalg.inv(bind[0])
     bind_world = here @ bind
     made = skeleton_of(names, parents, rest, bind_world)
-    figures, shapes = read_meshes(meshes, paths, here)
-    animation, shapes, notes = read_animation(
-        stage, skeleton, paths, parents, rest_local, change, shapes
+    figures, left_out = read_meshes(meshes, paths, here)
+    animation, resting, notes = read_animation(
+        stage, skeleton, paths, parents, rest_local, change, shape_names(figures), known
     )
     if count > 1:
         notes.append(f"{count - 1} other skeletons are not kept")
     found = () if animation is None else (animation,)
-    return Imported(path, made, figures, found, tuple(notes), unique_names(shapes, "shape"))
+    return Imported(path, made, figures, found, (*left_out, *notes), resting)
 
 
 def _matrices(attribute: Usd.Attribute, count: int, kind: str) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from pxr import Usd, UsdGeom, UsdSkel
 from actions_library.importers.imported import Animation, check_poses, rigid
 from actions_library.importers.usd_values import numbers, texts
 from laban.faults import Fault
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
     IDENTITY_XYZW,
@@ -32,9 +33,10 @@ def read_animation(
     parents: Sequence[int],
     rest: FloatArray,
     change: FloatArray,
-    shapes: Sequence[str],
-) -> tuple[Animation | None, list[str], list[str]]:
-    """Return the animation if there is one, the names of all shapes, and what was left out.
+    kept: Sequence[str],
+    known: Collection[str] | None,
+) -> tuple[Animation | None, Tracks, list[str]]:
+    """Return the animation if there is one, the weights at rest, and what was left out.
 
     Parameters
     ----------
@@ -42,25 +44,37 @@ def read_animation(
         Paths of the skeleton's joints, their parents' places, and their local matrices at rest.
     change
         ``(4, 4)`` from the file's axes and unit to ours.
-    shapes
-        Names of blend shapes that meshes have; those that only the animation has come behind.
+    kept
+        Names of the blend shapes of the skeleton's meshes; weights of others are left out.
+    known
+        Those of all of the file's meshes; None where it has no mesh, and all weights are kept.
+
+    Raises
+    ------
+    Fault
+        If it does not fit its joints, or there is a weight without a shape.
     """
     prim = UsdSkel.BindingAPI(skeleton).GetInheritedAnimationSource()
     source = UsdSkel.Animation(prim) if prim else None
     if not source:
-        return None, list(shapes), []
-    own_shapes = texts(source.GetBlendShapesAttr())
-    names = list(dict.fromkeys([*shapes, *own_shapes]))
+        return None, NO_TRACKS, []
+    names = texts(source.GetBlendShapesAttr())
+    for name in names:
+        if known is not None and name not in known:
+            raise Fault(f"{prim.GetPath()}.blendShapes", "shapes of its meshes", repr(name)[:60])
+    wanted = names if known is None else kept
     attributes = (*_parts_of(source), source.GetBlendShapeWeightsAttr())
     times = sorted({t for attribute in attributes for t in attribute.GetTimeSamples()})
     if len(times) < 2:
-        return None, names, []
+        only = np.array(times or [0.0])
+        return None, _weights(source, names, only).among(wanted), []
     where = str(prim.GetPath())
     rate_hz, codes = _codes(where, stage, times, len(joints) + len(names))
     own = texts(source.GetJointsAttr())
     moved = _Moved.read(source, own, codes)
     if moved.scale is not None and np.abs(moved.scale).min(initial=1.0) < 1e-6:
-        return None, names, [f"animation {prim.GetName()!r} scales joints to nothing: left out"]
+        note = f"animation {prim.GetName()!r} scales joints to nothing: left out"
+        return None, NO_TRACKS, [note]
     place = {joint: j for j, joint in enumerate(joints)}
     at = [(k, place[joint]) for k, joint in enumerate(own) if joint in place]
     world = _world(skeleton, codes)
@@ -74,8 +88,8 @@ def read_animation(
         blocks.append(rigid(where, poses @ chained(local, parents), parents))
     rotation = sign_continuous(np.concatenate([q for q, _ in blocks]))
     translation = np.concatenate([t for _, t in blocks])
-    weights = _weights(source, own_shapes, names, codes)
-    return Animation(prim.GetName(), rate_hz, rotation, translation, weights), names, []
+    weights = _weights(source, names, codes).among(wanted)
+    return Animation(prim.GetName(), rate_hz, rotation, translation, weights), NO_TRACKS, []
 
 
 def chained(local: FloatArray, parents: Sequence[int]) -> FloatArray:
@@ -170,17 +184,8 @@ def _world(skeleton: UsdSkel.Skeleton, codes: FloatArray) -> FloatArray:
     return np.swapaxes(np.array(found, dtype=np.float64), -1, -2)
 
 
-def _weights(
-    source: UsdSkel.Animation,
-    own: Sequence[str],
-    names: Sequence[str],
-    codes: FloatArray,
-) -> FloatArray | None:
-    """Return the weights of all shapes ``(n, s)``; None where none is moved."""
+def _weights(source: UsdSkel.Animation, names: Sequence[str], codes: FloatArray) -> Tracks:
+    """Return the weights of blend shapes at time codes; none where the file has none."""
     attribute = source.GetBlendShapeWeightsAttr()
-    found = _over_time(attribute, codes, len(own)) if own else None
-    if found is None:
-        return None
-    weights = np.zeros((len(codes), len(names)))
-    weights[:, [names.index(name) for name in own]] = found
-    return weights
+    found = _over_time(attribute, codes, len(names)) if names else None
+    return NO_TRACKS if found is None else Tracks(tuple(names), found)

@@ -1,8 +1,9 @@
-"""The meshes that a UsdSkel skeleton moves, in its bind pose."""
+"""The meshes that a UsdSkel skeleton moves, in its bind pose, with their blend shapes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from pxr import Sdf, UsdGeom, UsdShade, UsdSkel
@@ -13,7 +14,8 @@ from actions_library.importers.imported import (
     strongest,
     unique_names,
 )
-from actions_library.importers.usd_values import numbers, texts
+from actions_library.importers.usd_shapes import ShapeReader
+from actions_library.importers.usd_values import extremes, numbers, texts, whole_numbers
 from laban.faults import Fault
 from smd.character.character import Mesh
 from smd.geometry.arrays import FloatArray, IntArray
@@ -24,7 +26,7 @@ _GREY = (0.8, 0.8, 0.8)
 def read_meshes(
     meshes: Sequence[UsdGeom.Mesh], joints: Sequence[str], here: FloatArray
 ) -> tuple[tuple[Mesh, ...], list[str]]:
-    """Return the meshes, and the names of their blend shapes, each once.
+    """Return the meshes, and what of their blend shapes was left out.
 
     Parameters
     ----------
@@ -35,16 +37,15 @@ def read_meshes(
     """
     names = unique_names([mesh.GetPrim().GetName() for mesh in meshes])
     figures: list[Mesh] = []
-    shapes: dict[str, None] = {}
+    reader = ShapeReader()
     for name, mesh in zip(names, meshes, strict=True):
-        figures.append(_mesh(name, mesh, joints, here))
+        figures.append(_mesh(name, mesh, joints, here, reader))
         points = sum(len(figure.points_m) for figure in figures)
         faces = sum(len(figure.triangles) for figure in figures)
         if points > MOST_POINTS or faces > MOST_TRIANGLES:
             most = f"at most {MOST_POINTS} points and {MOST_TRIANGLES} triangles in all"
             raise Fault(str(mesh.GetPath()), most, f"{points} and {faces}")
-        shapes |= dict.fromkeys(texts(UsdSkel.BindingAPI(mesh).GetBlendShapesAttr()))
-    return tuple(figures), list(shapes)
+    return tuple(figures), reader.notes
 
 
 def skeleton_of_mesh(mesh: UsdGeom.Mesh) -> Sdf.Path | None:
@@ -56,18 +57,24 @@ def skeleton_of_mesh(mesh: UsdGeom.Mesh) -> Sdf.Path | None:
     return skeleton.GetPath()
 
 
-def _mesh(name: str, mesh: UsdGeom.Mesh, joints: Sequence[str], here: FloatArray) -> Mesh:
+def _mesh(
+    name: str,
+    mesh: UsdGeom.Mesh,
+    joints: Sequence[str],
+    here: FloatArray,
+    reader: ShapeReader,
+) -> Mesh:
     """Return a mesh in the bind pose, its faces cut into triangles."""
     where = str(mesh.GetPath())
     points = numbers(mesh.GetPointsAttr(), 3)
     if points is None or not len(points) or not np.isfinite(points).all():
         raise Fault(where, "finite points", "none, or some that are not")
-    counts = _whole(mesh.GetFaceVertexCountsAttr())
-    corners = _whole(mesh.GetFaceVertexIndicesAttr())
+    counts = whole_numbers(mesh.GetFaceVertexCountsAttr())
+    corners = whole_numbers(mesh.GetFaceVertexIndicesAttr())
     if counts.min(initial=0) < 0 or counts.sum() != len(corners) or not len(corners):
         raise Fault(where, f"{int(counts.sum())} corners of faces", len(corners))
     if corners.min() < 0 or corners.max() >= len(points):
-        raise Fault(where, f"corners from 0 to {len(points) - 1}", _extremes(corners))
+        raise Fault(where, f"corners from 0 to {len(points) - 1}", extremes(corners))
     indices, weights = _influences(mesh, joints, len(points), where)
     placed = UsdSkel.BindingAPI(mesh).GetGeomBindTransformAttr()
     matrix = here @ (numbers_of_one(placed, 4, 4, default=np.eye(4)).T)
@@ -77,7 +84,11 @@ def _mesh(name: str, mesh: UsdGeom.Mesh, joints: Sequence[str], here: FloatArray
     mirrored = np.linalg.det(matrix[:3, :3]) < 0.0
     if mirrored != (str(mesh.GetOrientationAttr().Get()) == "leftHanded"):
         corners, counts = corners[::-1].copy(), counts[::-1]
-    return Mesh(name, points, fans(counts, corners), indices, weights, _color(mesh))
+    shapes = tuple(
+        replace(shape, offsets_m=shape.offsets_m @ matrix[:3, :3].T)
+        for shape in reader.shapes(mesh, len(points))
+    )
+    return Mesh(name, points, fans(counts, corners), indices, weights, _color(mesh), shapes)
 
 
 def numbers_of_one(attribute: object, *shape: int, default: FloatArray) -> FloatArray:
@@ -95,16 +106,6 @@ def numbers_of_one(attribute: object, *shape: int, default: FloatArray) -> Float
     return array
 
 
-def _whole(attribute: object) -> IntArray:
-    """Return an attribute's whole numbers; none where it has none."""
-    found = numbers(attribute)
-    return np.empty(0, np.int64) if found is None else found.astype(np.int64)
-
-
-def _extremes(values: IntArray) -> str:
-    return f"{int(values.min())} to {int(values.max())}"
-
-
 def fans(counts: IntArray, corners: IntArray) -> IntArray:
     """Return the triangles ``(t, 3)`` of faces, each cut into a fan from its first corner."""
     first = np.concatenate([[0], np.cumsum(counts)[:-1]])
@@ -120,7 +121,7 @@ def _influences(
     """Return the four strongest joints of each point, among the skeleton's, and their weights."""
     binding = UsdSkel.BindingAPI(mesh)
     primvar = binding.GetJointIndicesPrimvar()
-    indices = _whole(primvar.GetAttr())
+    indices = whole_numbers(primvar.GetAttr())
     found = numbers(binding.GetJointWeightsPrimvar().GetAttr())
     weights = np.empty(0) if found is None else found
     each = primvar.GetElementSize()
@@ -135,7 +136,7 @@ def _influences(
     if unknown:
         raise Fault(where, "joints of the skeleton", unknown[0][:60])
     if indices.min() < 0 or indices.max() >= len(own):
-        raise Fault(where, f"joint indices from 0 to {len(own) - 1}", _extremes(indices))
+        raise Fault(where, f"joint indices from 0 to {len(own) - 1}", extremes(indices))
     order = np.array([place[joint] for joint in own])
     known = np.nan_to_num(weights, posinf=0.0, neginf=0.0).reshape(rows, each)
     first, share = strongest(order[indices].reshape(rows, each), known)

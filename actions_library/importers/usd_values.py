@@ -8,7 +8,7 @@ import numpy as np
 from pxr import Usd
 
 from laban.faults import Fault
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 
 
 def numbers(attribute: Any, *shape: int, time: float | None = None) -> FloatArray | None:
@@ -35,6 +35,17 @@ def numbers(attribute: Any, *shape: int, time: float | None = None) -> FloatArra
     if array.ndim != 1 + len(shape) or array.shape[1:] != shape:
         raise Fault(where, expected, f"an array of shape {array.shape}")
     return array
+
+
+def whole_numbers(attribute: Any) -> IntArray:
+    """Return an attribute's whole numbers; none where it has none."""
+    found = numbers(attribute)
+    return np.empty(0, np.int64) if found is None else found.astype(np.int64)
+
+
+def extremes(values: IntArray) -> str:
+    """Return the least and the greatest of some numbers, as text."""
+    return f"{int(values.min())} to {int(values.max())}"
 
 
 def texts(attribute: Any) -> list[str]:

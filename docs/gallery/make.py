@@ -66,7 +66,7 @@ def draw_efforts(library: Library, action: str, axes: tuple[str, str], path: Pat
             called = ", ".join(f"{axis} {value:+.0f}" for axis, value in state.items())
             travels = library.action(action).travels
             (played,) = expressive(study, [Effort(**state)], travels=travels)
-            write_clip_file(folder / "clip.usdc", played, library.character_file)
+            write_clip_file(folder / "clip.usdc", played, library.character, library.character_file)
             write_filmstrip(folder / "clip.usdc", folder / "strip.png", rows=1)
             row = Image.open(folder / "strip.png").convert("RGB")
             ImageDraw.Draw(row).rectangle((0, 0, 210, row.height), fill=(250, 250, 250))

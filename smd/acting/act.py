@@ -11,13 +11,14 @@ from smd.acting.flight import flights, height_of, in_air, raised
 from smd.acting.grounding import Rise, grounded, level
 from smd.acting.legs import Leg
 from smd.acting.move import Footwork, Move, Playable
-from smd.acting.moving import Idling, placed, posed, stepped
+from smd.acting.moving import Idling, placed, posed, stepped, tracked
 from smd.acting.performance import Actor
 from smd.acting.slope import slope
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.mass import Mass
 from smd.character.poses import Poses
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.doodle import Doodle
 from smd.errors import TransferError
 from smd.geometry.arrays import FloatArray, frozen_array
@@ -101,6 +102,7 @@ def act(
         doodles=doodles,
         terrain=terrain,
         mass=mass,
+        tracks=tracked(moves, time_s, idling),
     )
 
 
@@ -118,6 +120,7 @@ def grounded_actor(
     doodles: Sequence[Doodle] = (),
     terrain: Terrain | None = None,
     mass: Mass | None = None,
+    tracks: Tracks = NO_TRACKS,
 ) -> Actor:
     """Put poses on the ground: feet that should stand do, and none is in the ground.
 
@@ -133,14 +136,16 @@ def grounded_actor(
         Frames per second, and the time of frame 0.
     rise
         How much higher than in the poses the body and its feet are.
+    tracks
+        Weights of shapes and other controls in each frame.
 
     The others are those of `act`.
 
     Raises
     ------
     TransferError
-        As in `act`; if the rate is not positive; or if poses, footwork and rise do not fit the
-        skeleton, the legs and each other.
+        As in `act`; if the rate is not positive; or if poses, footwork, rise and tracks do not fit
+        the skeleton, the legs and each other.
     """
     poses, footwork = _fitting(character, poses, footwork, legs, rate_hz)
     count = len(poses.rotation_xyzw)
@@ -152,7 +157,7 @@ def grounded_actor(
         way, time_s = poses.translation_m[:, 0, [0, 2]], Frames(start_s, rate_hz, count).time_s
         ground = slope(terrain, way, rise.flies, time_s, rate_hz, name)
     done = grounded(character.skeleton, poses, footwork, legs, rate_hz, rise, ground, mass)
-    return Actor(name, character, done, phrases=tuple(phrases), doodles=tuple(doodles))
+    return Actor(name, character, done, tuple(phrases), tuple(doodles), tracks)
 
 
 def _fitting(

@@ -8,6 +8,7 @@ from typing import Generic, NamedTuple, Protocol, TypeVar
 import numpy as np
 
 from smd.character.poses import Poses
+from smd.character.tracks import Tracks
 from smd.geometry.arrays import BoolArray, FloatArray
 
 KNOT_RATE_HZ = 120.0
@@ -40,6 +41,9 @@ class Playable(Protocol):
 
     def sampled(self, frame: FloatArray) -> Poses:
         """Return local poses at fractional frames ``(n,)``, the ground root at its origin."""
+
+    def tracks_at(self, frame: FloatArray) -> Tracks:
+        """Return the tracks at fractional frames ``(n,)``."""
 
     def stands_at(self, frame: FloatArray) -> Footwork:
         """Return the foot contacts at fractional frames ``(n,)``; pivots of cycles add up."""

@@ -1,4 +1,4 @@
-"""Moving: a performer's moves as poses and footwork at even times."""
+"""Moving: a performer's moves as poses, tracks and footwork at even times."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ import numpy as np
 from smd.acting.move import Footwork, Move, Playable
 from smd.acting.transitions import carried_over, transition_s
 from smd.character.poses import Poses, mixed
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.geometry.arrays import FloatArray
-from smd.geometry.easing import gaussian_smoothed
+from smd.geometry.easing import gaussian_smoothed, smootherstep
 from smd.geometry.rotations import quaternion_about
 
 SEEN = 0.1
@@ -67,6 +68,41 @@ def posed(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -
         np.concatenate([piece.rotation_xyzw for piece in pieces]),
         np.concatenate([piece.translation_m for piece in pieces]),
     )
+
+
+def tracked(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Tracks:
+    """Return the tracks at each time, of all names that any clip has; parameters as in `posed`.
+
+    At a boundary they are mixed from their last values into the next move's, in as much time as
+    the joints take. What is mixed stays between the two: a difference that decays, as that of
+    joints does, would open a mouth farther than either move.
+    """
+    played = (idling.piece, *(move.piece for move in moves))
+    first = np.zeros(1)
+    names = tuple(dict.fromkeys(name for one in played for name in one.tracks_at(first).names))
+    if not names:
+        return NO_TRACKS
+    value = np.empty((len(time_s), len(names)))
+    for i, (move, rows) in enumerate(zip(moves, rows_of(moves, time_s), strict=True)):
+        now_s = time_s[rows]
+        value[rows] = _own_values(move, now_s, idling, names)
+        if i > 0 and len(now_s) > 0:
+            before = moves[i - 1]
+            at_s = before.end_s
+            last = _own_values(before, np.array([at_s]), idling, names)
+            over_s = _over_s(before, move, *_ends(before, move, idling))
+            got = smootherstep((now_s - at_s) / over_s)[:, None] if over_s > 0.0 else 1.0
+            value[rows] = last + got * (value[rows] - last)
+    return Tracks(names, value)
+
+
+def _own_values(
+    move: Move[Playable], time_s: FloatArray, idling: Idling, names: tuple[str, ...]
+) -> FloatArray:
+    """Return a move's tracks ``(n, k)`` by itself, without the transition into it."""
+    resting = idling.piece.tracks_at(idling.frame_at(time_s)).of(names)
+    own = move.piece.tracks_at(move.frame_at(time_s)).of(names)
+    return np.asarray(resting + move.presence_at(time_s)[:, None] * (own - resting))
 
 
 def stepped(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Footwork:
@@ -133,12 +169,8 @@ def _joined(
 ) -> Poses:
     """Let the difference to the previous move decay over the first poses of this one."""
     at_s = before.end_s
-    ends = (
-        own_poses(before, at_s + np.array([-_STEP_S, 0.0]), idling),
-        own_poses(move, at_s + np.array([0.0, _STEP_S]), idling),
-    )
-    over_s = max(transition_s(*ends), move.waits_s)
-    over_s = min(over_s, move.start_s - at_s + move.room_s)
+    ends = _ends(before, move, idling)
+    over_s = _over_s(before, move, *ends)
     count = int(np.searchsorted(now_s, at_s + over_s))
     if count == 0:
         return poses
@@ -146,3 +178,17 @@ def _joined(
     first = carried_over(*ends, first, now_s[:count] - at_s, over_s=over_s, step_s=_STEP_S)
     poses.rotation_xyzw[:count], poses.translation_m[:count] = first
     return poses
+
+
+def _ends(before: Move[Playable], move: Move[Playable], idling: Idling) -> tuple[Poses, Poses]:
+    """Return two poses on either side of the boundary between two moves."""
+    return (
+        own_poses(before, before.end_s + np.array([-_STEP_S, 0.0]), idling),
+        own_poses(move, before.end_s + np.array([0.0, _STEP_S]), idling),
+    )
+
+
+def _over_s(before: Move[Playable], move: Move[Playable], left: Poses, right: Poses) -> float:
+    """Return how long the transition from one move into the next takes."""
+    over_s = max(transition_s(left, right), move.waits_s)
+    return min(over_s, move.start_s - before.end_s + move.room_s)

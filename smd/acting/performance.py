@@ -12,14 +12,36 @@ from laban.frozen import Frozen
 from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.poses import Poses
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.doodle import Doodle
 from smd.errors import TransferError
-from smd.geometry.arrays import frozen_array
+from smd.geometry.arrays import FloatArray, frozen_array
 from smd.geometry.rotations import sign_continuous
 from smd.score import Phrase
 
 UNIT_TOLERANCE = 1e-3
 """How much longer or shorter than 1 a rotation's quaternion may be: that of `Clip`."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeldProp(Frozen):
+    """A prop in an actor's hand, a frame each.
+
+    Attributes
+    ----------
+    position_m : (n, 3) in the world.
+    orientation_xyzw : (n, 4) unit; it turns the prop's +Z to where its front points.
+    """
+
+    position_m: FloatArray
+    orientation_xyzw: FloatArray
+
+    def __post_init__(self) -> None:
+        position = frozen_array("position_m", self.position_m, (None, 3), TransferError)
+        shape = (len(position), 4)
+        turns = frozen_array("orientation_xyzw", self.orientation_xyzw, shape, TransferError)
+        object.__setattr__(self, "position_m", position)
+        object.__setattr__(self, "orientation_xyzw", turns)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +56,8 @@ class Actor(Frozen):
         0 is the ground root in the world.
     phrases : what it performs, in time order, where that has names.
     doodles : what it was drawn with, if it was, in metres of the character's world.
+    tracks : weights of the character's shapes, and any other control, a value each frame.
+    held : where the prop is in its hand; None where it is not held.
     """
 
     name: str
@@ -41,6 +65,8 @@ class Actor(Frozen):
     poses: Poses
     phrases: tuple[Phrase, ...] = ()
     doodles: tuple[Doodle, ...] = ()
+    tracks: Tracks = NO_TRACKS
+    held: HeldProp | None = None
 
     def __post_init__(self) -> None:
         j = len(self.character.skeleton)
@@ -54,7 +80,13 @@ class Actor(Frozen):
         rotation.flags.writeable = False
         shape = (len(rotation), j, 3)
         translation = frozen_array("translation_m", translation, shape, TransferError)
+        if self.held is not None and len(self.held.position_m) != len(rotation):
+            raise TransferError(
+                f"actor {self.name!r}: held: expected {len(rotation)} frames, as poses have, got "
+                f"{len(self.held.position_m)}"
+            )
         object.__setattr__(self, "poses", Poses(rotation, translation))
+        object.__setattr__(self, "tracks", self.tracks.over(len(rotation), TransferError))
         object.__setattr__(self, "phrases", tuple(self.phrases))
         object.__setattr__(self, "doodles", tuple(self.doodles))
 

@@ -1,4 +1,4 @@
-"""Clip: a skeleton's poses over time, with its stages and contacts."""
+"""Clip: a skeleton's poses and tracks over time, with its stages and contacts."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from laban.frozen import Frozen
 from smd.character.skeleton import Skeleton
+from smd.character.tracks import NO_TRACKS, Tracks
 from smd.errors import CharacterError
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray, frozen_array
 from smd.geometry.rotations import sign_continuous
@@ -36,6 +37,7 @@ class Clip(Frozen):
     contact_joints : joints that touch the ground at some time.
     contacts : (n, c) bool, when each of them does.
     cyclic : repeats seamlessly.
+    tracks : of its n frames: weights of shapes, and any other control.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Clip(Frozen):
     contact_joints: tuple[str, ...]
     contacts: BoolArray
     cyclic: bool = False
+    tracks: Tracks = NO_TRACKS
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
@@ -87,6 +90,7 @@ class Clip(Frozen):
         object.__setattr__(self, "stage_end_frames", ends)
         object.__setattr__(self, "contact_joints", tuple(self.contact_joints))
         object.__setattr__(self, "contacts", contacts)
+        object.__setattr__(self, "tracks", self.tracks.over(n))
 
     def __len__(self) -> int:
         return len(self.rotation_xyzw)

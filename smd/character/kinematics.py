@@ -23,7 +23,7 @@ def forward_kinematics(
     Parameters
     ----------
     skeleton
-        Gives the lineage.
+        Gives the tree.
     rotation_xyzw, translation_m
         Local poses ``(…, j, 4)`` and ``(…, j, 3)``; any leading axes.
     """

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.character.clip import Clip
+from smd.character.tracks import Tracks
 from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import normalized
 
@@ -41,11 +42,21 @@ def sampled(clip: Clip, frame: FloatArray) -> Poses:
     return Poses(rotation, translation)
 
 
+def sampled_tracks(clip: Clip, frame: FloatArray) -> Tracks:
+    """Return a clip's tracks at fractional frames ``(n,)``, beyond its ends as `sampled`."""
+    return clip.tracks.at(_within(clip, frame))
+
+
+def _within(clip: Clip, frame: FloatArray) -> FloatArray:
+    """Return which of a clip's own fractional frames is shown at any."""
+    last = len(clip) - 1
+    return np.asarray(np.mod(frame, last) if clip.cyclic else np.clip(frame, 0.0, last))
+
+
 def _neighbours(clip: Clip, frame: FloatArray) -> tuple[IntArray, FloatArray]:
     """Return the frames to the left of fractional ones, and how far beyond them they are."""
-    last = len(clip) - 1
-    frame = np.mod(frame, last) if clip.cyclic else np.clip(frame, 0.0, last)
-    left = np.minimum(frame.astype(np.int64), last - 1)
+    frame = _within(clip, frame)
+    left = np.minimum(frame.astype(np.int64), len(clip) - 2)
     return left, frame - left
 
 

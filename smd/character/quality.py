@@ -16,6 +16,9 @@ MOST_SLIDE_M_S = 0.02
 MOST_GAP_RAD = 1e-3
 """How far a joint of a cycle may be from its first turn in its last frame."""
 
+MOST_TRACK_GAP = 1e-3
+"""How far a track of a cycle may be from its first value in its last frame."""
+
 LEAST_TRAVEL_M = 0.05
 """Way of a clip that travels."""
 
@@ -37,6 +40,8 @@ def flaws(clip: Clip, *, travels: bool) -> Iterator[str]:
         yield f"slides on planted feet: {slide:.2f} m/s on average, expected {MOST_SLIDE_M_S}"
     if clip.cyclic and (gap := pose_gap_rad(clip)) > MOST_GAP_RAD:
         yield f"does not close: its last pose is {np.degrees(gap):.1f}° from its first"
+    if clip.cyclic and (open_ := open_tracks(clip)):
+        yield f"does not close: {', '.join(open_)} end with other values than they begin"
     if travels and clip.cyclic and clip.travel_m < LEAST_TRAVEL_M:
         yield "travels nowhere, but its action travels"
     if (fastest := fastest_turn_rad_s(clip)) > FASTEST_RAD_S:
@@ -64,6 +69,12 @@ def pose_gap_rad(clip: Clip) -> float:
     """Return the greatest difference of a joint's local turn between first and last frame."""
     dots = np.abs(np.sum(clip.rotation_xyzw[0, 1:] * clip.rotation_xyzw[-1, 1:], axis=-1))
     return float(2.0 * np.arccos(np.clip(dots, -1.0, 1.0)).max())
+
+
+def open_tracks(clip: Clip) -> tuple[str, ...]:
+    """Return the names of the tracks whose last value differs from their first."""
+    gap = np.abs(clip.tracks.value[-1] - clip.tracks.value[0])
+    return tuple(np.array(clip.tracks.names, dtype=object)[gap > MOST_TRACK_GAP])
 
 
 def fastest_turn_rad_s(clip: Clip) -> float:

@@ -68,6 +68,10 @@ class ActingOptions:
             "most phrases need.",
         ),
     ] = "1"
+    hold: Annotated[
+        bool,
+        typer.Option("--hold", help="Characters hold their props in a hand."),
+    ] = False
     ground: Annotated[
         Path | None,
         typer.Option(
@@ -98,6 +102,7 @@ class ActingOptions:
                 heading=self.heading,
                 timing=self.timing,
                 stretch=self.stretch,
+                hold=self.hold,
                 ground=terrain,
             )
 

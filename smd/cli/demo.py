@@ -50,19 +50,21 @@ def demo(
     def act(expressiveness: float) -> Performance:
         return smd.animate(score, recording, library, expressiveness=expressiveness)
 
-    writing.write(score, act, 1.0, stage)
+    performance = writing.write(score, act, 1.0, stage)
     typer.echo(f"{stage}: the animation; open it in Blender, usdview or Unreal")
-    _draw(stage, recording, score, output)
+    _draw(stage, recording, score, performance, output)
 
 
-def _draw(stage: Path, recording: Recording, score: Score, output: Path) -> None:
+def _draw(
+    stage: Path, recording: Recording, score: Score, performance: Performance, output: Path
+) -> None:
     """Write the pictures; a machine that cannot render is told so and keeps its animation."""
     from exporters.filmstrip import write_filmstrip
     from exporters.timeline import write_timeline
     from smd.errors import ExportError
 
     timeline, filmstrip = output / f"{STORY}.timeline.png", output / f"{STORY}.filmstrip.png"
-    write_timeline(recording, score, timeline)
+    write_timeline(recording, score, timeline, performance)
     typer.echo(f"{timeline}: tokens, phrases and Effort under the trajectory")
     try:
         write_filmstrip(stage, filmstrip)

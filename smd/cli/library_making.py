@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -115,15 +116,15 @@ def new(
         folder, imported, front=importing.direction(), credit=importing.credit()
     )
     figure = library.character
+    shapes = f", {len(figure.shapes)} shapes" if figure.shapes else ""
     typer.echo(
         f"{library.folder}: {figure.height_m:.2f} m tall, {len(figure.skeleton)} joints, "
-        f"{len(figure.meshes)} meshes"
+        f"{len(figure.meshes)} meshes{shapes}"
     )
     typer.echo("\n".join(_plan_lines(imported, plan_of(imported, front=importing.direction()))))
     typer.echo(f"  idles with: {idling or 'its rest pose, since no animation is called idle'}")
     names = [a.name for a in imported.animations]
-    more = f" and {len(names) - SHOWN_NAMES} more" if len(names) > SHOWN_NAMES else ""
-    typer.echo(f"  animations in the file: {', '.join(names[:SHOWN_NAMES]) or 'none'}{more}")
+    typer.echo(f"  animations in the file: {_some(names) or 'none'}")
     for note in imported.notes:
         typer.echo(f"  note: {note}")
 
@@ -217,7 +218,22 @@ def _clip_lines(adopted: Adopted, name: str) -> list[str]:
     )
     slide = f", sliding {mean_slide_m_s(clip, place):.2f} m/s on average" if touching else ""
     lines.append(f"  touches the ground: {touching or 'never'}{slide}")
+    if clip.tracks.names:
+        lines.append(f"  moves {len(clip.tracks.names)} shapes: {_some(clip.tracks.names)}")
+    if adopted.left_out:
+        lines.append(
+            f"  note: the character lacks {len(adopted.left_out)} shapes that the file moves, "
+            f"left out: {_some(adopted.left_out)}"
+        )
     if not clip.cyclic:
         ends = zip(STAGES, clip.stage_end_frames / clip.rate_hz, strict=True)
         lines.append("  stages end at " + ", ".join(f"{stage} {t:.2f} s" for stage, t in ends))
     return lines
+
+
+def _some(names: Sequence[str]) -> str:
+    """Return names in a line, the first of them where there are many."""
+    from laban.faults import printable
+
+    more = f" and {len(names) - SHOWN_NAMES} more" if len(names) > SHOWN_NAMES else ""
+    return printable(", ".join(names[:SHOWN_NAMES])) + more

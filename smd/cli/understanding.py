@@ -138,12 +138,16 @@ class Understander:
             only=LIVE,
         ):
             _say(f"  {line}")
-        if how.picture:
-            from exporters.timeline import write_timeline
+        performance = None
+        try:
+            performance = smd.animate(score, recording, self._library, rate_hz=how.story.fps)
+            smd.write(performance, take.with_suffix(how.suffix))
+        finally:  # what was understood is shown though it cannot be acted out
+            if how.picture:
+                from exporters.timeline import write_timeline
 
-            write_timeline(recording, score, take.with_suffix(".timeline.png"))
-        performance = smd.animate(score, recording, self._library, rate_hz=how.story.fps)
-        smd.write(performance, take.with_suffix(how.suffix))
+                picture = take.with_suffix(".timeline.png")
+                write_timeline(recording, score, picture, performance)
 
 
 def _print(decided: list[Decided]) -> None:

@@ -53,7 +53,7 @@ def retimed(poses: Poses, source_frame: FloatArray) -> Poses:
 
 
 def played_clip(clip: Clip, poses: Poses, source_frame: FloatArray) -> Clip:
-    """Return a clip with other poses, its stages and contacts when they are shown.
+    """Return a clip with other poses, its stages, contacts and tracks when they are shown.
 
     Parameters
     ----------
@@ -70,6 +70,7 @@ def played_clip(clip: Clip, poses: Poses, source_frame: FloatArray) -> Clip:
         translation_m=poses.translation_m,
         stage_end_frames=retimed_ends(clip.stage_end_frames, source_frame),
         contacts=clip.contacts[np.rint(source_frame).astype(np.int64)],
+        tracks=clip.tracks.at(source_frame),
     )
 
 

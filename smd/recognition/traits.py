@@ -200,11 +200,12 @@ def fitted(
     held = matrix_from_quaternion(
         quaternion_from_rotvec(sine_axis / np.maximum(size, 1e-12) * -most)
     )
-    # All vectors are turned by facing, and the axes mixed by held: one matrix for each shape.
-    turn = np.zeros((m, 4, 3, 4, 3))
-    turn[:, 0, :, 0] = np.swapaxes(facing, 1, 2)
-    turn[:, 1:, :, 1:] = np.einsum("mrc,mlk->mckrl", held, facing)
-    return np.asarray(np.matmul(shapes, turn.reshape(m, 12, 12)))
+    # The position is turned by facing; the axes are, and are mixed by held.
+    turned = np.empty_like(shapes)
+    np.matmul(shapes[..., :3], np.swapaxes(facing, 1, 2), out=turned[..., :3])
+    mixed = np.einsum("mrc,mlk->mckrl", held, facing).reshape(m, 9, 9)
+    np.matmul(shapes[..., 3:], mixed, out=turned[..., 3:])
+    return turned
 
 
 def _shape(poses: PoseSequence, frame_xyzw: FloatArray) -> FloatArray:

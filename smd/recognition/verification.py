@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -38,16 +38,14 @@ GLIMPSE_ROOM = 1.1
 """Factor on the threshold for courses at every fourth sample.
 ``docs/verification.md`` says how rarely that loses a stretch."""
 
+_COURSES = slice(1, 1 + len(COURSES))
 _MEASURES = slice(1 + len(COURSES), len(TERMS))
 _SHAPE = COURSES.index("shape_heading")
-_CHEAP_FIRST = (
-    *(COURSES.index(name) for name in ("flow_heading", "flow_prop", "shape_prop")),
-    _SHAPE,  # is turned to fit first
-)
-_TELLING_FIRST = (_SHAPE, *_CHEAP_FIRST[:-1])
+_BY_WEIGHT = ("shape_heading", "flow_heading", "flow_prop", "shape_prop")
+"""The order in which courses are warped: the first of them reject most."""
 
-PAIRS = 2048
-"""Pairs of an action and a gesture that are weighed together: intermediate arrays take some 30 MiB
+PAIRS = 1024
+"""Pairs of an action and a gesture that are weighed together: intermediate arrays take some 15 MiB
 then, for any length of recording."""
 
 _FREEDOM = 4.0
@@ -135,52 +133,12 @@ class Verification(Frozen):
         ndarray
             ``(p, 9)``, in the order of `TERMS`.
         """
-        terms = np.full((len(action), len(TERMS)), np.inf)
-        by_action = np.argsort(action, kind="stable")
-        for begin in range(0, len(action), PAIRS):
-            some = by_action[begin : begin + PAIRS]
-            terms[some] = self._some_terms(
-                gestures, action[some], gesture[some], wrong[some], most[some], every
-            )
-        return terms
-
-    def _some_terms(
-        self,
-        gestures: Traits,
-        action: IntArray,
-        gesture: IntArray,
-        wrong: FloatArray,
-        most: FloatArray,
-        every: int,
-    ) -> FloatArray:
-        """Return `terms` of pairs that are ordered by action."""
-        terms = np.full((len(action), len(TERMS)), np.inf)
+        terms = np.empty((len(action), len(TERMS)))
         terms[:, 0] = WEIGHTS[0] * wrong
         deviation = (gestures.measures[gesture] - self.centre[action]) / self.spread[action]
         terms[:, _MEASURES] = WEIGHTS[_MEASURES] * oddness(deviation)
-        known = terms[:, 0] + terms[:, _MEASURES].sum(axis=1)
-        floor = np.zeros((len(action), len(COURSES)))  # what courses cost that are not warped yet
-        left = np.flatnonzero(known <= most)
-        shapes = np.zeros((0, SAMPLES // every, 12))
-        for i in _CHEAP_FIRST:
-            courses = gestures.courses[i][gesture[left], ::every]
-            if i == _SHAPE:
-                whole = gestures.courses[i][gesture[left]]
-                courses = shapes = faced(whole, self.central[action[left]])[:, ::every]
-            least = self.examples[every][i].at_least(courses, action[left])
-            floor[left, i] = self.unit[action[left], i] * least
-            within = known[left] + floor[left].sum(axis=1) <= most[left]
-            left = left[within]
-        shapes = shapes[within]
-        for i in _TELLING_FIRST:
-            courses = shapes if i == _SHAPE else gestures.courses[i][gesture[left], ::every]
-            unit = self.unit[action[left], i]
-            floor[left, i] = 0.0
-            room = (most[left] - known[left] - floor[left].sum(axis=1)) / unit
-            far = self.examples[every][i].nearest(courses, action[left], room)
-            terms[left, 1 + i] = unit * far
-            known[left] += terms[left, 1 + i]
-            left = left[known[left] + floor[left].sum(axis=1) <= most[left]]
+        room = most - terms[:, 0] - terms[:, _MEASURES].sum(axis=1)
+        terms[:, _COURSES] = self._warped(gestures, action, gesture, room, every, COURSES)
         return terms
 
     def promising(
@@ -192,24 +150,73 @@ class Verification(Frozen):
         of `GLIMPSE_COURSES` at every fourth sample. The gestures have only these samples;
         parameters are those of `terms`.
         """
-        courses = {i: gestures.courses[i] for i in map(COURSES.index, GLIMPSE_COURSES)}
-        central = self.central[:, ::GLIMPSE]
         room = GLIMPSE_ROOM * most - self.measured(gestures.measures)[gesture, action]
+        terms = self._warped(gestures, action, gesture, room, GLIMPSE, GLIMPSE_COURSES)
+        return np.asarray(np.isfinite(terms).all(axis=1))
+
+    def _warped(
+        self,
+        gestures: Traits,
+        action: IntArray,
+        gesture: IntArray,
+        room: FloatArray,
+        every: int,
+        courses: Sequence[str],
+    ) -> FloatArray:
+        """Return ``(p, 4)``, the terms of some courses, infinite where they exceed ``room (p,)``.
+
+        Those of the other courses are 0. The heaviest course is warped first, and with each the
+        pairs are dropped that it and the bounds of the rest put above the room.
+        """
+        terms = np.full((len(action), len(COURSES)), np.inf)
         by_action = np.argsort(action, kind="stable")
-        for begin in range(0, len(action), PAIRS):
-            left = by_action[begin : begin + PAIRS]
-            left = left[room[left] >= 0.0]
-            for i, course in courses.items():
-                ours, own = course[gesture[left]], action[left]
-                if i == _SHAPE:
-                    ours = faced(ours, central[own])
-                examples, unit = self.examples[GLIMPSE][i], self.unit[own, i]
-                within = unit * examples.at_least(ours, own) <= room[left]
-                room[left[~within]] = -np.inf
-                left, ours, own, unit = left[within], ours[within], own[within], unit[within]
-                room[left] -= unit * examples.nearest(ours, own, room[left] / unit)
-                left = left[room[left] >= 0.0]
-        return np.asarray(room >= 0.0)
+        by_action = by_action[room[by_action] >= 0.0]
+        numbers = [COURSES.index(name) for name in _BY_WEIGHT if name in courses]
+        for begin in range(0, len(by_action), PAIRS):
+            some = by_action[begin : begin + PAIRS]
+            terms[some] = self._some_warped(
+                gestures, action[some], gesture[some], room[some], every, numbers
+            )
+        return terms
+
+    def _some_warped(
+        self,
+        gestures: Traits,
+        action: IntArray,
+        gesture: IntArray,
+        room: FloatArray,
+        every: int,
+        courses: Sequence[int],
+    ) -> FloatArray:
+        """Return `_warped` of pairs that are ordered by action.
+
+        The shape in the heading frame is the first of the courses, which are warped in turn.
+        """
+        given = SAMPLES // gestures.courses[_SHAPE].shape[1]  # every so many-th sample is known
+        step = every // given
+        terms = np.zeros((len(action), len(COURSES)))  # at least so much, until they are warped
+        left = np.arange(len(action))
+        for i in reversed(courses):  # the shape last: it has to be turned to fit
+            course = gestures.courses[i][gesture[left]]
+            if i == _SHAPE:
+                course = faced(course, self.central[action[left], ::given])
+            course = course[:, ::step]
+            least = self.examples[every][i].at_least(course, action[left])
+            terms[left, i] = self.unit[action[left], i] * least
+            within = terms[left].sum(axis=1) <= room[left]
+            left = left[within]
+        shapes = course[within]
+        for i in courses:
+            course = shapes if i == _SHAPE else gestures.courses[i][gesture[left], ::step]
+            unit = self.unit[action[left], i]
+            terms[left, i] = 0.0
+            most = (room[left] - terms[left].sum(axis=1)) / unit
+            terms[left, i] = unit * self.examples[every][i].nearest(course, action[left], most)
+            left = left[terms[left].sum(axis=1) <= room[left]]
+        left_out = np.ones(len(terms), bool)
+        left_out[left] = False
+        terms[left_out] = np.inf
+        return terms
 
     def measured(self, measures: FloatArray) -> FloatArray:
         """Return ``(g, a)``, the cost of the measures ``(g, 4)`` alone of g gestures, by action."""

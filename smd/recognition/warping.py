@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -17,12 +17,9 @@ from smd.recognition.alignment import pair_distances, widest_shift
 
 Single: TypeAlias = NDArray[np.float32]
 
-LANES = 8192
-"""Pairs of a course and an example that are warped together: enough to amortize the overhead of
-array operations, few enough that their costs stay in the processor's cache."""
-
-CELLS = 1 << 17
-"""Costs of pairs of samples that are computed at a time: they stay in the cache as well."""
+CELLS = 1 << 20
+"""Costs of pairs of samples that are held at a time, 4 MiB: enough of them to amortize the overhead
+of array operations, few enough that most stay in the processor's caches."""
 
 ONE_THREAD = 1 << 18
 """Multiplications in a matrix product up to which OpenBLAS leaves it to one thread. Products of
@@ -88,7 +85,9 @@ class Templates(Frozen):
         .. [1] E. Keogh, C. A. Ratanamahatana, "Exact Indexing of Dynamic Time Warping",
            Knowledge and Information Systems 7, 2005.
         """
-        outside = courses - np.clip(courses, self._low[action], self._high[action])
+        inside = np.maximum(courses, self._low[action])
+        np.minimum(inside, self._high[action], out=inside)
+        outside = np.subtract(courses, inside, out=inside)
         total = np.einsum("pnd,pnd->p", outside, outside)
         # A little less, or rounding would lose an example that is just as far.
         return (1.0 - 1e-9) * np.sqrt(total / courses.shape[1])
@@ -137,12 +136,13 @@ class Templates(Frozen):
         return nearest
 
     def _slabs(self, action: IntArray) -> Iterator[slice]:
-        """Yield parts of p pairs, in order, of about `LANES` lanes each."""
+        """Yield parts of p pairs, in order, of about `CELLS` costs each."""
         lanes = np.cumsum(np.diff(self._first)[action])
+        most = CELLS // (self._all.shape[1] * (2 * self._shift + 1))
         first = 0
         while first < len(action):
             before = lanes[first - 1] if first else 0
-            last = max(int(np.searchsorted(lanes, before + LANES, side="right")), first + 1)
+            last = max(int(np.searchsorted(lanes, before + most, side="right")), first + 1)
             yield slice(first, last)
             first = last
 
@@ -150,7 +150,7 @@ class Templates(Frozen):
         """Yield stretches of pairs of one action, each small enough for one thread of BLAS."""
         edges = [0, *(np.flatnonzero(np.diff(action)) + 1).tolist(), len(action)]
         for first, last in pairwise(edges):
-            _, costs, numbers = self._windows[int(action[first])].shape
+            _, numbers, costs = self._windows[int(action[first])].shape
             count = max(ONE_THREAD // (costs * numbers), 1)
             for begin in range(first, last, count):
                 yield slice(begin, min(begin + count, last))
@@ -162,33 +162,24 @@ class Templates(Frozen):
         """
         p, n, d = courses.shape
         # (a, 1, |a|^2) times (-2 b, |b|^2, 1) is the square of the distance of a and b
-        ours = np.empty((n, d + 2, p), np.float32)
-        ours[:, :d] = courses.transpose(1, 2, 0)
-        ours[:, d] = 1.0
-        ours[:, d + 1] = np.square(courses).sum(axis=-1).T
-        blocks = list(self._blocks(action))
-        windows = [self._windows[int(action[own.start])] for own in blocks]
+        ours = np.empty((n, p, d + 2), np.float32)
+        ours[..., :d] = courses.transpose(1, 0, 2)
+        ours[..., d] = 1.0
+        ours[..., d + 1] = np.square(courses).sum(axis=-1).T
+        counts = np.diff(self._first)
+        lanes = np.concatenate([[0], np.cumsum(counts[action])])
         width = 2 * self._shift + 1
-        lanes = [
-            (own.stop - own.start) * window.shape[1] // width
-            for own, window in zip(blocks, windows, strict=True)
-        ]
-        rows = max(CELLS // (width * sum(lanes)), 1)
-
-        def costs() -> Iterator[Single]:
-            for begin in range(0, n, rows):
-                some = slice(begin, begin + rows)
-                each = [
-                    np.matmul(window[some], ours[some, :, own]).reshape(-1, width, lane)
-                    for window, own, lane in zip(windows, blocks, lanes, strict=True)
-                ]
-                yield from each[0] if len(each) == 1 else np.concatenate(each, axis=2)
-
-        sums = np.split(_least_sums(costs(), width, sum(lanes)), np.cumsum(lanes)[:-1])
-        totals = np.full((p, int(np.diff(self._first).max())), np.inf)
-        for own, least in zip(blocks, sums, strict=True):
-            count = own.stop - own.start
-            totals[own, : len(least) // count] = least.reshape(-1, count).T
+        costs = np.empty((n, width, int(lanes[-1])), np.float32)
+        blocks = list(self._blocks(action))
+        for own in blocks:
+            part = costs[:, :, lanes[own.start] : lanes[own.stop]]
+            _pair_costs(ours[:, own], self._windows[int(action[own.start])], part)
+        sums = _least_sums(costs)
+        totals = np.full((p, int(counts.max())), np.inf)
+        for own in blocks:
+            m = int(counts[action[own.start]])
+            least = sums[lanes[own.start] : lanes[own.stop]]
+            totals[own, :m] = _by_course(least, own.stop - own.start, m)
         return totals
 
 
@@ -206,20 +197,22 @@ def _in_rows(factors: Sequence[FloatArray]) -> FloatArray:
 
 
 def _windows(examples: FloatArray, shift: int) -> Single:
-    """Return ``(n, (2 shift + 1) m, d + 2)``, which samples of m examples each may be paired with.
+    """Return ``(n, d + 2, (2 shift + 1) m)``, which samples of m examples each may be paired with.
 
     What is paired with sample i is sample i - shift to i + shift of each example; the parts share
     their memory.
     """
     m, n, d = examples.shape
-    rows = np.zeros((n + 2 * shift, m, d + 2), np.float32)
-    rows[..., d] = _OUT_OF_REACH
-    inside = rows[shift : shift + n]
-    inside[..., :d] = -2.0 * examples.transpose(1, 0, 2)
-    inside[..., d] = np.square(examples).sum(axis=-1).T
-    inside[..., d + 1] = 1.0
+    rows = np.zeros((d + 2, n + 2 * shift, m), np.float32)
+    rows[d] = _OUT_OF_REACH
+    inside = rows[:, shift : shift + n]
+    inside[:d] = -2.0 * examples.transpose(2, 1, 0)
+    inside[d] = np.square(examples).sum(axis=-1).T
+    inside[d + 1] = 1.0
     rows.flags.writeable = False
-    return as_strided(rows, (n, (2 * shift + 1) * m, d + 2), rows.strides, writeable=False)
+    number, sample, one = rows.strides
+    shape = (n, d + 2, (2 * shift + 1) * m)
+    return as_strided(rows, shape, (sample, number, one), writeable=False)
 
 
 def _least_in_reach(values: FloatArray, shift: int) -> FloatArray:
@@ -235,29 +228,57 @@ def _least_in_reach(values: FloatArray, shift: int) -> FloatArray:
     return least
 
 
-def _least_sums(costs: Iterable[Single], width: int, lanes: int) -> Single:
+def _pair_costs(ours: Single, window: Single, costs: Single) -> None:
+    """Write ``(n, width, p m)``, what pairing samples costs, for p courses and m examples.
+
+    The longer the rows of a matrix product are, the faster it is. So they are of the examples'
+    samples where there are more of these than courses, and else of the courses'.
+    """
+    n, p, _ = ours.shape
+    width = costs.shape[1]
+    m = window.shape[2] // width
+    if p < m:
+        each = np.matmul(ours, window).reshape(n, p, width, m).swapaxes(1, 2)
+    else:
+        each = np.matmul(window.swapaxes(1, 2), ours.swapaxes(1, 2)).reshape(n, width, m, p)
+    costs.reshape(each.shape)[...] = each
+
+
+def _by_course(lanes: Single, p: int, m: int) -> Single:
+    """Return ``(p, m)``, what was found for the lanes that `_pair_costs` wrote."""
+    return lanes.reshape(p, m) if p < m else lanes.reshape(m, p).T
+
+
+def _least_sums(costs: Single) -> Single:
     """Return ``(lanes,)``, the least sum of costs on a path from the first pair to the last one.
 
-    The table of dynamic time warping, row by row, all lanes at once::
+    The table of dynamic time warping, all lanes at once::
 
         sum(i, j) = cost(i, j) + min(sum(i - 1, j), sum(i, j - 1), sum(i - 1, j - 1))
+
+    It is filled along its diagonals, on which i + j is the same: none of their sums depends on
+    another of them, so they are computed together.
 
     Parameters
     ----------
     costs
-        For each sample i, ``(width, lanes)``, of pairing it with sample i + k - width // 2.
+        ``(n, width, lanes)``, of pairing sample i with sample i + k - width // 2.
     """
-    # One more, beyond which there is no way; from row to row, sample j moves one place down.
-    sums, before = np.full((2, width + 1, lanes), np.inf, np.float32)
-    sums[width // 2] = 0.0
-    for number, cost in enumerate(costs):
-        if number:
-            sums, before = before, sums
-            np.minimum(before[:-1], before[1:], out=sums[:-1])
-        left = sums[0]
-        left += cost[0]
-        for here, own in zip(sums[1:-1], cost[1:], strict=True):
-            np.minimum(here, left, out=here)
-            here += own
-            left = here
-    return np.asarray(sums[width // 2])
+    n, width, lanes = costs.shape
+    cost = costs.reshape(n * width, lanes)
+    shift = width // 2
+    # The last sum for each k: row k + 1 of those between the two beyond which there is no way. Even
+    # and odd rows lie apart, since each diagonal has rows of one kind, and reads the other kind.
+    rows = np.full((2, shift + 2, lanes), np.inf, np.float32)
+    rows[(shift + 1) % 2, (shift + 1) // 2] = 0.0
+    for diagonal in range(2 * n - 1):
+        reach = min(shift, diagonal, 2 * (n - 1) - diagonal)
+        reach -= (reach - diagonal) % 2
+        first, count = shift - reach + 1, reach + 1
+        here = rows[first % 2, first // 2 :][:count]
+        other = rows[1 - first % 2]
+        np.minimum(here, other[(first - 1) // 2 :][:count], out=here)
+        np.minimum(here, other[(first + 1) // 2 :][:count], out=here)
+        i = (diagonal + reach) // 2
+        here += cost[i * width + shift - reach :: 2 - width][:count]
+    return rows[(shift + 1) % 2, (shift + 1) // 2]

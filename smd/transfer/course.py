@@ -31,7 +31,8 @@ from smd.transfer.in_place import (
 )
 from smd.transfer.pacing import Pacing, paced
 from smd.transfer.path import GroundPath
-from smd.transfer.repertoire import Piece, Repertoire
+from smd.transfer.repertoire import Piece, Repertoire, pieces_of
+from smd.transfer.swings import Swing, at_own_tempo, with_periods
 from smd.transfer.timeline import Span
 from smd.transfer.travelling import along_path, leap
 
@@ -79,7 +80,7 @@ def course(
             assert span.phrase is not None
             rest = pieces.rest_after(span.phrase.action)
             pause_s = _pause_s(spans[i + 1 : i + 3], rest, pieces)
-            acted = _acted(piece, span, pause_s, path, at, before, into_gait=into_gait)
+            acted = _acted(piece, span, pause_s, path, at, before, pieces, into_gait=into_gait)
             moves += [_turning(acted[0], at.heading_rad, span.turning_rad_s), *acted[1:]]
         at = moves[-1].end
     return tuple(moves)
@@ -129,6 +130,7 @@ def _acted(
     path: GroundPath,
     at: Placement,
     before: Move[Piece] | None,
+    pieces: Repertoire,
     *,
     into_gait: bool,
 ) -> list[Move[Piece]]:
@@ -167,7 +169,10 @@ def _acted(
         return [leap(piece, path, pacing, end_s, at, run_up_s=span.run_up_s)]
     at = Placement(at.position_m, nearest_turn(float(path.heading_at(start_s)), at.heading_rad))
     if not turns(piece):
-        return [gesture(piece, _pacing(piece, span, start_s, end_s, pause_s), at)]
+        pacing = _pacing(piece, span, start_s, end_s, pause_s)
+        if piece.swing is not None and span.planned is not None:
+            piece, pacing = _at_own_tempo(piece, piece.swing, pacing, pieces)
+        return [gesture(piece, pacing, at)]
     passes = turn_passes(piece, float(path.heading_at(end_s) - path.heading_at(start_s)))
     if len(passes) == 1:
         return [turn(piece, _pacing(piece, span, start_s, end_s, pause_s), at, passes[0])]
@@ -179,6 +184,20 @@ def _acted(
         moves.append(turn(piece, pacing, at, turn_rad))
         at = moves[-1].end
     return moves
+
+
+def _at_own_tempo(
+    piece: Piece, swing: Swing, pacing: Pacing, pieces: Repertoire
+) -> tuple[Piece, Pacing]:
+    """Return a piece that swings as often as there is time for, and when its frames are shown."""
+    count, pacing = at_own_tempo(pacing, swing)
+    if count != swing.periods:
+        clip = with_periods(piece.clip, swing, count)
+        (piece,) = pieces_of(
+            [clip], travels=False, legs=pieces.legs, neutral=piece, mass=pieces.mass
+        )
+        piece = replace(piece, swing=swing._replace(periods=count))
+    return piece, pacing
 
 
 def _turning(move: Move[Piece], from_rad: float, speed_rad_s: float) -> Move[Piece]:

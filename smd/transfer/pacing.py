@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from smd.character.clip import STAGES, Clip
-from smd.character.kinematics import forward_kinematics
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.rotations import inverse, rotate
@@ -73,16 +72,20 @@ def struck_frame(clip: Clip) -> int:
     return int(clip.stage_end_frames[_EXECUTION])
 
 
-def near_share(clip: Clip) -> float:
-    """Return the share of a clip's transition after which its pose is near to its last one."""
+def near_share(clip: Clip, position_m: FloatArray) -> float:
+    """Return the share of a clip's transition after which its pose is near to its last one.
+
+    Parameters
+    ----------
+    position_m
+        ``(n, j, 3)`` where the joints are, in the clip's own world.
+    """
     core, last = core_frame(clip), len(clip) - 1
     if core == last:
         return 0.0
-    rotation, translation = clip.rotation_xyzw[core:], clip.translation_m[core:]
-    _, position_m = forward_kinematics(clip.skeleton, rotation, translation)
-    place = position_m * [1.0, 0.0, 1.0] - translation[:, :1] * [1.0, 0.0, 1.0]
-    place = rotate(inverse(rotation[:, :1]), place)
-    place[..., 1] = position_m[..., 1]
+    place = position_m[core:] * [1.0, 0.0, 1.0] - clip.translation_m[core:, :1] * [1.0, 0.0, 1.0]
+    place = rotate(inverse(clip.rotation_xyzw[core:, :1]), place)
+    place[..., 1] = position_m[core:, :, 1]
     apart = np.linalg.norm(place - place[-1], axis=-1).mean(axis=-1)
     far = np.flatnonzero(apart > NEAR_M)
     return float((far[-1] + 1) / (last - core)) if len(far) else 0.0

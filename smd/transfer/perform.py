@@ -9,6 +9,8 @@ import numpy as np
 
 from smd.acting.act import Frames, act
 from smd.acting.company import encounters
+from smd.acting.gaze import with_gaze
+from smd.acting.grip import with_props_held
 from smd.acting.performance import Actor, Performance
 from smd.acting.terrain import Terrain
 from smd.cast import ActionLibrary, Cast, cast_of
@@ -30,6 +32,12 @@ RATE_HZ = 24.0
 MOST_HURRIED = 0.05
 """Share of phrases without enough time up to which a take is not stretched any further."""
 
+EMPTY_HANDED = (
+    "{}: its character has no hand with fingers and a thumb, so that it cannot hold its prop; "
+    "leave --hold out, or give it another character with --library"
+)
+"""What is said of a performer that should hold its prop, and cannot."""
+
 BEYOND_S = 0.05
 """How far a phrase may reach beyond its device's samples: hand-written times are rounded."""
 
@@ -46,6 +54,7 @@ def perform(
     timing: str = "feasible",
     stretch: float | str = 1.0,
     limits: Limits | None = None,
+    hold: bool = False,
 ) -> Performance:
     """Act out a Score.
 
@@ -66,12 +75,15 @@ def perform(
     terrain
         What they go on; by default the level ground.
     timing
-        When phrases are played: "drawn", as in the Score, or "feasible", as a body can.
+        When phrases are played: "drawn", as in the Score and to the letter of the paper, or
+        "feasible", as a body can, with heads that look where it goes.
     stretch
         How many times as long as the recording the performance lasts; "auto" for as long as most
         phrases need.
     limits
         What a body can, where that is asked for; by default a person's.
+    hold
+        Whether characters hold their props in a hand.
 
     Returns
     -------
@@ -122,8 +134,14 @@ def perform(
             break
     staged = kept_apart(alone, cast)
     actors = tuple(acted(one, cast, frames, terrain) for one in staged)
+    if timing != DRAWN:
+        actors = with_gaze(actors, rate_hz)
+    if hold:
+        actors = with_props_held(actors)
     asked = [line for one in staged for line in demands(one.part.device, one.moves)]
     asked += [line for one in staged for line in unmet(one.part.device, one.plan)]
+    if hold:
+        asked += [EMPTY_HANDED.format(one.name) for one in actors if one.held is None]
     devices = [part.device for part in score.performers]
     before, after = ([one.moves for one in performers] for performers in (alone, staged))
     asked += encounters(devices, before, after, heights_m(devices, cast))

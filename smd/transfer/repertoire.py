@@ -16,9 +16,10 @@ from smd.acting.move import Airborne, Footwork
 from smd.acting.standing import resting, standing
 from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
-from smd.character.kinematics import joints_in_world
+from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.mass import Mass
-from smd.character.poses import Poses, sampled
+from smd.character.poses import Poses, sampled, sampled_tracks
+from smd.character.tracks import Tracks
 from smd.expression.body import Body, body_of
 from smd.expression.expressive import expressive
 from smd.expression.study import study_of
@@ -28,6 +29,7 @@ from smd.transfer.body_work import BodyWork, body_works
 from smd.transfer.gait import Gait, fastest_m_s, gait_of
 from smd.transfer.ground_root import GroundRoot, ground_roots
 from smd.transfer.pacing import near_share
+from smd.transfer.swings import Swing, expressed, swing_of
 
 NO_WAY_M = 0.05
 """Travel of a clip below which it has no direction of its own."""
@@ -58,6 +60,7 @@ class Piece:
     near : share of its transition after which its pose is near to its last one.
     airborne : the part of it that flies, if it plays once and one does.
     body : what it asks of the body's mass, where that counts.
+    swing : the part of it that repeats itself, if it plays once, in place, and one does.
     """
 
     clip: Clip
@@ -70,6 +73,7 @@ class Piece:
     near: float
     airborne: Airborne | None
     body: BodyWork | None
+    swing: Swing | None = None
 
     @property
     def direction_rad(self) -> float:
@@ -85,6 +89,10 @@ class Piece:
     def sampled(self, frame: FloatArray) -> Poses:
         """Return local poses at fractional frames ``(n,)``, the ground root at its origin."""
         return sampled(self.clip, frame)
+
+    def tracks_at(self, frame: FloatArray) -> Tracks:
+        """Return the tracks at fractional frames ``(n,)``."""
+        return sampled_tracks(self.clip, frame)
 
     def stands_at(self, frame: FloatArray) -> Footwork:
         """Return the foot contacts at fractional frames ``(n,)``: those of the nearest frame."""
@@ -348,6 +356,7 @@ def pieces_of(
         stands = standing(clip, legs, None if like is None else like.touching, rests[:, i])
         never = np.zeros(len(clip), dtype=bool)
         columns = [stands.get(foot, never) for foot in feet]
+        near, swing = _returning(clip, travels=travels) if like is None else _as(like, clip)
         pieces.append(
             Piece(
                 clip=clip,
@@ -357,12 +366,26 @@ def pieces_of(
                 yaw_rad=yaw[:, i],
                 touching=tuple(stands),
                 gait=gait_of(clip, stands) if travels and clip.cyclic else None,
-                near=near_share(clip) if like is None else like.near,
+                near=near,
                 airborne=_airborne(clip, stands, pelvis_m[:, i]),
                 body=bodies[i],
+                swing=swing,
             )
         )
     return pieces
+
+
+def _returning(clip: Clip, *, travels: bool) -> tuple[float, Swing | None]:
+    """Return when a neutral clip is near to its last pose, and what it repeats."""
+    _, place_m = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    swing = None if travels or clip.cyclic else swing_of(clip, place_m)
+    return near_share(clip, place_m), swing
+
+
+def _as(neutral: Piece, clip: Clip) -> tuple[float, Swing | None]:
+    """Return the same of an expression of a clip."""
+    swing = None if neutral.swing is None else expressed(neutral.swing, neutral.clip, clip)
+    return neutral.near, swing
 
 
 def _airborne(clip: Clip, stands: Mapping[int, BoolArray], body_m: FloatArray) -> Airborne | None:

@@ -29,6 +29,10 @@ TAKE_OFF_S = 0.6
 """Time in which a clip that never touches the ground takes off, and lands; never more than a third
 of the phrase."""
 
+UPRIGHT_S = 1.1
+"""Time in which a body gets from lying in the air to standing, where it is planned as a body can:
+its greatest speed is 1.9 times the mean."""
+
 
 def along_path(
     piece: Piece,
@@ -60,7 +64,9 @@ def along_path(
     if gait is None:
         raise ValueError(f"{piece.clip.name}: expected a cyclic clip that travels")
     time_s = knots(start_s, end_s)
-    settling_s = _settling_s(path, time_s) if gait.passings else _take_off_s(time_s)
+    planned = standing_s > 0.0  # and so is its path: from rest to rest
+    settles = gait.passings or planned
+    settling_s = _settling_s(path, time_s) if settles else _take_off_s(time_s)
     clock_s = eased_clock(
         time_s, 0.0 if from_gait else settling_s[0], 0.0 if into_gait else settling_s[1]
     )
@@ -83,7 +89,9 @@ def along_path(
     else:
         share = even
         cycles = float(max(round((end_s - start_s) / gait.duration_s), 1))
-        presence = _ends(time_s, settling_s[0], from_same=from_gait, into_same=into_gait)
+        longest_s = UPRIGHT_S if planned else TAKE_OFF_S
+        over_s = min(longest_s, (end_s - start_s) / 3.0)
+        presence = _ends(time_s, over_s, from_same=from_gait, into_same=into_gait)
         first = 0.0 if phase is None else phase
     heading = path.heading_at(clock_s)
     return Move(

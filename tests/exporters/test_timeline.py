@@ -14,6 +14,7 @@ from smd.errors import ExportError
 from smd.recognition.tokens import Token, TokenRun
 from smd.score import Alternative, Part, Score, Suggestion
 from smd.score_file import score_from_json
+from tests.naive.shaped import weights
 
 ACTIONS = ("walk", "punch")
 
@@ -123,7 +124,7 @@ def test_a_recording_of_one_sample_and_no_phrase_is_drawn_too(tmp_path):
 def test_an_hour_is_not_wider_than_a_picture_may_be(tmp_path):
     time_s = np.linspace(0.0, 3600.0, 40)
     slow = Doodle(time_s, np.zeros((40, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (40, 1)))
-    figure, _ = timeline._sheet(1, 0.0, float(slow.duration_s))
+    figure, _ = timeline._sheet([False], 0.0, float(slow.duration_s))
     assert figure.get_figwidth() * timeline.DPI < 2**16 / 2
 
 
@@ -138,3 +139,31 @@ def test_devices_that_the_score_leaves_out_are_left_out(recording, score, tmp_pa
     write_timeline(recording, score, tmp_path / "two.png")
     with Image.open(tmp_path / "one.png") as a, Image.open(tmp_path / "two.png") as b:
         assert a.height < 0.65 * b.height
+
+
+def test_an_actor_s_tracks_are_drawn_in_a_lane_of_their_own(
+    recording, score, performance, picture, tmp_path
+):
+    """The first of two actors has a face: its lane makes the picture higher, once."""
+    faced = replace(performance.actors[0], tracks=weights(len(performance)))
+    acted = replace(performance, actors=(faced, *performance.actors[1:]))
+    drawn = []
+    for name, acts in (("with", acted), ("without", performance)):
+        write_timeline(recording, score, tmp_path / f"{name}.png", acts)
+        drawn.append(np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")).astype(int))
+    assert np.array_equal(drawn[1], picture)
+    higher = drawn[0].shape[0] - picture.shape[0]
+    assert higher == pytest.approx(timeline._TRACKS_INCHES * timeline.DPI, abs=1)
+    # The lane is below the first device's others; the track that changes most is drawn first.
+    head = timeline._HEAD_INCHES + sum(timeline._LANES.values())
+    first, end = (round(timeline.DPI * at) for at in (head, head + timeline._TRACKS_INCHES))
+    rows, columns = np.nonzero(np.abs(drawn[0][first:end] - [0x1F, 0x77, 0xB4]).max(axis=-1) <= 2)
+    value = weights(len(performance)).value
+    most = value[:, np.ptp(value, axis=0).argmax()]
+    share = (seconds(columns, drawn[0]) - 10.0) / 2.0
+    shown = np.interp(share, np.linspace(0.0, 1.0, len(most)), most)
+    low, high = -0.08, 1.08
+    found = high - (rows + 0.5) / (end - first) * (high - low)
+    inside = share <= 1.0  # names stand beside
+    assert inside.sum() > 300
+    assert np.abs(found - shown)[inside].max() < 0.1

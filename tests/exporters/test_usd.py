@@ -12,6 +12,7 @@ from pxr import Sdf, Usd, UsdGeom, UsdSkel, UsdValidation
 
 import exporters
 from exporters.usd import write_usd
+from smd.acting.grip import with_props_held
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses
 from smd.character.skinning import skin_points
@@ -118,6 +119,24 @@ def test_the_prop_goes_where_the_doodle_went(stage, performance):
         for axis in np.eye(3):
             expected = rotate(orientation, axis)
             np.testing.assert_allclose(matrix.TransformDir(axis.tolist()), expected, atol=1e-6)
+
+
+def test_a_held_prop_is_seen_where_the_hand_is(performance, stage, tmp_path):
+    free = UsdGeom.Mesh(stage.GetPrimAtPath("/Performance/Props/left_hand_prop/Dart"))
+    assert free.ComputePurpose() == UsdGeom.Tokens.guide
+    held = replace(performance, actors=with_props_held(performance.actors))
+    write_usd(held, tmp_path / "held.usdc")
+    stage = Usd.Stage.Open(str(tmp_path / "held.usdc"))
+    actor = held.actors[0]
+    hand = actor.character.skeleton.index("right_hand")
+    _, place = forward_kinematics(actor.character.skeleton, *actor.poses)
+    prim = UsdGeom.Xformable(stage.GetPrimAtPath("/Performance/Props/left_hand_prop"))
+    for frame in (0, 20, 48):
+        at = np.array(prim.ComputeLocalToWorldTransform(frame).ExtractTranslation())
+        np.testing.assert_allclose(at, actor.held.position_m[frame], atol=1e-5)
+        assert np.linalg.norm(at - place[frame, hand]) < 0.1
+    dart = UsdGeom.Mesh(stage.GetPrimAtPath("/Performance/Props/left_hand_prop/Dart"))
+    assert dart.ComputePurpose() == UsdGeom.Tokens.default_
 
 
 def test_the_prop_hides_while_tracking_is_lost(stage):

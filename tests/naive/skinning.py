@@ -11,14 +11,22 @@ from smd.geometry.rotations import matrix_from_quaternion
 
 
 def skinned(
-    mesh: Mesh, skeleton: Skeleton, rotation: FloatArray, position: FloatArray
+    mesh: Mesh,
+    skeleton: Skeleton,
+    rotation: FloatArray,
+    position: FloatArray,
+    shape_weights: FloatArray | None = None,
 ) -> FloatArray:
-    """Return one pose's points: the sum over influences of w · W · B⁻¹ · p, in doubles."""
+    """Return one pose's points: the sum over influences of w · W · B⁻¹ · (p + offsets)."""
     world_from_joint = np.tile(np.eye(4), (len(skeleton), 1, 1))
     world_from_joint[:, :3, :3] = matrix_from_quaternion(rotation)
     world_from_joint[:, :3, 3] = position
     moved = world_from_joint @ np.linalg.inv(skeleton.world_from_bind)
-    points = np.concatenate([mesh.points_m, np.ones((len(mesh.points_m), 1))], axis=1)
+    formed = mesh.points_m.copy()
+    weights = np.zeros(len(mesh.shapes)) if shape_weights is None else shape_weights
+    for shape, weight in zip(mesh.shapes, weights, strict=True):
+        formed[shape.indices] += weight * shape.offsets_m
+    points = np.concatenate([formed, np.ones((len(formed), 1))], axis=1)
     total = np.zeros_like(points)
     for joints, weights in zip(mesh.joint_indices.T, mesh.joint_weights.T, strict=True):
         total += weights[:, None] * np.einsum("pab,pb->pa", moved[joints], points)

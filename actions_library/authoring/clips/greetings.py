@@ -68,14 +68,20 @@ def bow(skeleton: Skeleton) -> Clip:
 
 
 def nod(skeleton: Skeleton) -> Clip:
-    """Return a nod: the head down and up, twice, the chest with it a little."""
+    """Return a nod: the head down and up, twice, the chest and the arms with it a little."""
     duration = 1.70
+    sunk = ArmKey(to=(0.17, -1.0, 0.12), bend=20.0, shrug=-1.5)
+    sunk_right = ArmKey(to=(0.175, -1.0, 0.15), bend=26.0, shrug=-1.5)
+    raised = ArmKey(to=(0.18, -1.0, 0.02), bend=14.0, shrug=2.5)
+    raised_right = ArmKey(to=(0.185, -1.0, 0.05), bend=20.0, shrug=2.5)
     keys = [
         STAND,
         Key(  # up first
             0.24,
             chest=Turn(yaw=1.5, lean=-1.5, tilt=-1.0),
             head=Turn(yaw=0.0, lean=-9.0),
+            left_arm=raised,
+            right_arm=raised_right,
         ),
         Key(
             0.48,
@@ -83,12 +89,16 @@ def nod(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-2.0, lean=3.5, tilt=1.5),
             chest=Turn(yaw=1.5, lean=5.5, tilt=-1.0),
             head=Turn(yaw=0.0, lean=34.0),
+            left_arm=sunk,
+            right_arm=sunk_right,
         ),
         Key(
             0.74,
             hips=Turn(yaw=-2.0, lean=2.0, tilt=1.5),
             chest=Turn(yaw=1.5, lean=1.0, tilt=-1.0),
             head=Turn(yaw=0.0, lean=-3.0),
+            left_arm=raised,
+            right_arm=raised_right,
         ),
         Key(
             1.00,
@@ -96,6 +106,8 @@ def nod(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-2.0, lean=3.2, tilt=1.5),
             chest=Turn(yaw=1.5, lean=4.5, tilt=-1.0),
             head=Turn(yaw=0.0, lean=29.0),
+            left_arm=sunk,
+            right_arm=sunk_right,
         ),
         Key(
             1.34,
@@ -116,16 +128,26 @@ def nod(skeleton: Skeleton) -> Clip:
 
 
 def wave(skeleton: Skeleton) -> Clip:
-    """Wave with the right hand: raised beside the head, from side to side, three times."""
+    """Wave with the right hand: raised beside the head, from side to side, three times.
+
+    The other arm goes out to balance the body, and swings with it.
+    """
     duration, beat = 2.60, 0.21
     up = ArmKey(
         to=(0.62, 0.55, 0.42), bend=78.0, elbow=(1.0, -0.7, -0.1), twist=-62.0, flex=0.0, curl=8.0
     )
     inward = replace(up, to=(0.30, 0.75, 0.42), bend=88.0, flex=-4.0)
     outward = replace(up, to=(0.95, 0.62, 0.36), bend=52.0, flex=6.0)
+    balance = ArmKey(to=(0.36, -1.0, 0.02), bend=24.0)
+    swung = replace(balance, to=(0.27, -1.0, 0.14), bend=32.0)
     first = 0.62
     waving = [
-        Key(first + i * beat, right_arm=(outward, inward)[i % 2], chest=chest)
+        Key(
+            first + i * beat,
+            right_arm=(outward, inward)[i % 2],
+            left_arm=(balance, swung)[i % 2],
+            chest=chest,
+        )
         for i, chest in enumerate([Turn(yaw=-3.0, tilt=3.0), Turn(yaw=-1.0, tilt=0.5)] * 3)
     ]
     keys = [
@@ -135,6 +157,7 @@ def wave(skeleton: Skeleton) -> Clip:
             place=Place(left=0.030, up=-0.012),
             hips=Turn(yaw=-3.0, lean=2.0, tilt=3.0),
             head=Turn(lean=3.0),
+            left_arm=ArmKey(to=(0.24, -1.0, 0.04), bend=18.0),
             right_arm=ArmKey(to=(0.30, -0.80, 0.40), bend=50.0),
         ),
         Key(
@@ -142,7 +165,6 @@ def wave(skeleton: Skeleton) -> Clip:
             place=Place(left=0.036, up=-0.013),
             hips=Turn(yaw=-4.0, lean=1.5, tilt=3.6),
             head=Turn(yaw=-2.0, lean=0.0, tilt=4.0),
-            left_arm=ArmKey(to=(0.20, -1.0, 0.03), bend=16.0),
         ),
         *waving,
         Key(

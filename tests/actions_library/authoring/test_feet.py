@@ -12,11 +12,11 @@ from actions_library.authoring.feet import (
     other_foot,
     repeated,
 )
-from actions_library.authoring.humanoid import humanoid_skeleton
-from actions_library.authoring.limbs import foot_shape
+from actions_library.authoring.humanoid import LEGS, humanoid_skeleton
+from actions_library.authoring.legs import foot_shape
 from smd.geometry.rotations import rotate
 
-SHAPE = foot_shape(humanoid_skeleton(), "left")
+SHAPE = foot_shape(humanoid_skeleton(), LEGS["left"])
 STEP = [
     Plant(-9.0, 0.4, left=0.1, ahead=0.0, yaw=5.0, leave_pitch=60.0, roll=0.3),
     Plant(
@@ -87,7 +87,7 @@ def test_the_other_foot_s_path_is_the_mirror_image(path):
     mirror = np.array([-1.0, 1.0, 1.0])
     right = foot_path(
         [other_foot(plant) for plant in STEP],
-        foot_shape(humanoid_skeleton(), "right"),
+        foot_shape(humanoid_skeleton(), LEGS["right"]),
         -1.0,
         TIME_S,
     )

@@ -10,10 +10,13 @@ import sys
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
+from pxr import Sdf, Usd, UsdGeom, UsdSkel, Vt
 
-from tests.actions_library.importers.test_gltf import document
+from tests.actions_library.importers.test_gltf import appended, document
+from tests.actions_library.importers.test_usd import ARM
 
 pytest.importorskip("resource", reason="a process's costs are asked of Unix")
 
@@ -103,6 +106,42 @@ def empty_lines(path: Path) -> None:
     path.write_text("HIERARCHY" + "\n" * 50_000_000)
 
 
+def shared_targets(path: Path) -> None:
+    whole, count = document(), 100_000
+    moved = appended(whole, np.ones((count, 3), dtype="<f4"), "VEC3", 5126)
+    primitive = whole["meshes"][0]["primitives"][0]
+    for i, (component, kind) in enumerate(((5126, "VEC3"), (5121, "VEC4"), (5126, "VEC4"))):
+        whole["accessors"].append({"componentType": component, "count": count, "type": kind})
+        name = ("POSITION", "JOINTS_0", "WEIGHTS_0")[i]
+        primitive["attributes"][name] = len(whole["accessors"]) - 1
+    primitive["targets"] = [{"POSITION": moved}] * 4000
+    path.write_text(json.dumps(whole))
+
+
+def shared_offsets(path: Path) -> None:
+    """A crate keeps equal arrays once: 2000 shapes of 100,000 points take 1.4 MB."""
+    stage = Usd.Stage.CreateInMemory()
+    stage.GetRootLayer().ImportFromString(ARM)
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/Root/Skin"))
+    count = 100_000
+    binding = UsdSkel.BindingAPI(mesh)
+    mesh.GetPointsAttr().Set(Vt.Vec3fArray(count))
+    for primvar in (binding.GetJointIndicesPrimvar(), binding.GetJointWeightsPrimvar()):
+        primvar.SetElementSize(1)
+        primvar.GetAttr().Set(type(primvar.Get())(count))
+    offsets, names = Vt.Vec3fArray(count, (1.0, 0.0, 0.0)), [f"s{k}" for k in range(2000)]
+    with Sdf.ChangeBlock():
+        for name in names:
+            holder = stage.GetRootLayer().GetPrimAtPath("/Root/Skin")
+            shape = Sdf.PrimSpec(holder, name, Sdf.SpecifierDef, "BlendShape")
+            kind = Sdf.ValueTypeNames.Vector3fArray
+            Sdf.AttributeSpec(shape, "offsets", kind, Sdf.VariabilityUniform).default = offsets
+    binding.GetBlendShapesAttr().Set(names)
+    binding.GetBlendShapeTargetsRel().SetTargets([f"/Root/Skin/{name}" for name in names])
+    stage.GetRootLayer().Export(str(path))
+    assert path.stat().st_size < 3_000_000
+
+
 @pytest.mark.parametrize(
     ("make", "name"),
     [
@@ -114,6 +153,8 @@ def empty_lines(path: Path) -> None:
         (archive_of_gigabytes, "a.usdz"),
         (endless_braces, "a.usda"),
         (empty_lines, "a.bvh"),
+        (shared_targets, "a.gltf"),
+        (shared_offsets, "a.usdc"),
     ],
 )
 def test_a_file_costs_no_more_than_is_allowed(tmp_path, make, name):

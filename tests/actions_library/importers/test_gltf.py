@@ -10,8 +10,10 @@ import pytest
 
 from actions_library.importers import import_file
 from actions_library.importers.gltf_animations import sampled
+from actions_library.importers.gltf_file import GltfFile
 from smd.character.kinematics import forward_kinematics
 from smd.character.skinning import skin_points
+from smd.errors import ImportedFileError
 from smd.geometry.rotations import quaternion_about, rotate
 
 HALF = np.sqrt(0.5)
@@ -309,25 +311,115 @@ def test_buffers_lie_in_the_file_s_own_folder_or_below(tmp_path):
     assert len(import_file(written(tmp_path, whole)).skeleton) == 2
 
 
-def test_morph_targets_are_named_and_their_weights_sampled(tmp_path):
+def morphed() -> dict:
+    """The arm with two morph targets of one name, the second at a quarter."""
     whole = document()
-    moved = appended(whole, np.zeros((3, 3), dtype="<f4"), "VEC3", 5126)
+    moved = np.array([[0, 0, 0.5], [0, 0, 0], [1, 0, 0]], dtype="<f4")
+    first = appended(whole, moved, "VEC3", 5126)
+    second = appended(whole, -moved, "VEC3", 5126)
     mesh = whole["meshes"][0]
-    mesh["primitives"][0]["targets"] = [{"POSITION": moved}, {"POSITION": moved}]
+    mesh["primitives"][0]["targets"] = [{"POSITION": first}, {"POSITION": second}]
     mesh |= {"weights": [0.0, 0.25], "extras": {"targetNames": ["smile", "smile"]}}
-    still = import_file(written(tmp_path, whole))
-    assert still.shapes == ("smile", "smile_2")
-    assert still.animations[0].shape_weights is None
+    return whole
+
+
+def test_morph_targets_come_with_their_offsets(tmp_path):
+    imported = import_file(written(tmp_path, morphed()))
+    assert imported.shapes == ("smile", "smile_2")
+    (mesh,) = imported.meshes
+    for shape, sign in zip(mesh.shapes, (1.0, -1.0), strict=True):
+        moved = np.zeros((3, 3))
+        moved[shape.indices] = sign * shape.offsets_m
+        assert moved == pytest.approx(np.array([[0, 0, 0.5], [0, 0, 0], [1, 0, 0]]))
+    assert imported.rest_tracks.of(imported.shapes).tolist() == [[0.0, 0.25]]
+
+
+def test_weights_of_morph_targets_are_sampled(tmp_path):
+    whole = morphed()
+    still = import_file(written(tmp_path, whole)).animations[0].tracks
+    assert still.of(["smile", "smile_2"]) == pytest.approx(np.tile([0.0, 0.25], (len(still), 1)))
     animated(whole, "weights", [0, 1], [0.0, 0.5, 1.0, 0.5], "LINEAR", node=2)
     (animation,) = import_file(written(tmp_path, whole)).animations
-    assert animation.shape_weights.shape == (25, 2)
-    np.testing.assert_allclose(animation.shape_weights[:, 0], np.arange(25) / 24, atol=1e-6)
-    np.testing.assert_allclose(animation.shape_weights[:, 1], 0.5)
+    assert animation.tracks.names == ("smile", "smile_2")
+    assert animation.tracks.value.shape == (25, 2)
+    np.testing.assert_allclose(animation.tracks.value[:, 0], np.arange(25) / 24, atol=1e-6)
+    np.testing.assert_allclose(animation.tracks.value[:, 1], 0.5)
 
 
-def test_real_morph_targets_are_found(shared_data):
-    robot = import_file(shared_data / "clips" / "gltf" / "RobotExpressive.glb")
-    assert len(robot.shapes) > 0
+def test_a_morph_target_that_moves_nothing_is_left_out(tmp_path):
+    whole = morphed()
+    nothing = appended(whole, np.zeros((3, 3), dtype="<f4"), "VEC3", 5126)
+    whole["meshes"][0]["primitives"][0]["targets"][0] = {"POSITION": nothing}
+    imported = import_file(written(tmp_path, whole))
+    assert imported.shapes == ("smile_2",)
+    assert imported.animations[0].tracks.names == ("smile_2",)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        (np.zeros((2, 3)), r"targets\[1\]: expected 3 offsets of 3 numbers, found \(2, 3\)"),
+        (np.zeros((4, 3)), r"targets\[1\]: expected 3 offsets of 3 numbers, found \(4, 3\)"),
+        (np.full((3, 3), np.nan), r"targets\[1\]: expected finite offsets"),
+        (np.full((3, 3), np.inf), r"targets\[1\]: expected finite offsets"),
+    ],
+)
+def test_damaged_morph_targets_are_refused_in_one_line(tmp_path, rows, said):
+    whole = morphed()
+    bad = appended(whole, rows.astype("<f4"), "VEC3", 5126)
+    whole["meshes"][0]["primitives"][0]["targets"][1] = {"POSITION": bad}
+    with pytest.raises(ImportedFileError, match=said) as found:
+        import_file(written(tmp_path, whole))
+    assert "\n" not in str(found.value)
+
+
+def test_weights_without_morph_targets_and_too_many_of_them_are_refused(tmp_path):
+    whole = document()
+    animated(whole, "weights", [0, 1], [0.0, 1.0], "LINEAR", node=2)
+    with pytest.raises(ImportedFileError, match="node 2: expected morph targets of its weights"):
+        import_file(written(tmp_path, whole))
+    whole = morphed()
+    whole["meshes"][0]["primitives"][0]["targets"] *= 5000
+    del whole["meshes"][0]["weights"]
+    with pytest.raises(ImportedFileError, match="at most 4096 morph targets"):
+        import_file(written(tmp_path, whole))
+
+
+def test_real_morph_targets_open_the_robot_s_face(shared_data):
+    """Its head is of several colours, cut into meshes; each of its points is in one of them."""
+    path = shared_data / "clips" / "gltf" / "RobotExpressive.glb"
+    robot = import_file(path)
+    file = GltfFile(path)
+    targets = [
+        (file.accessor(target["POSITION"], "x") != 0.0).any(axis=1).sum()
+        for mesh in file.document["meshes"]
+        for primitive in mesh["primitives"]
+        for target in primitive.get("targets", [])
+    ]
+    moved = [len(shape.indices) for mesh in robot.meshes for shape in mesh.shapes]
+    assert sum(moved) >= sum(targets) > 1000  # a point on the border of two colours is in both
+    assert robot.shapes == ("Angry", "Surprised", "Sad")
+    assert {a.tracks.names for a in robot.animations if a.tracks.names} <= {robot.shapes}
+
+
+@pytest.mark.parametrize(("other", "names"), [(0.5, {"smile"}), (0.6, {"smile", "smile_2"})])
+def test_shapes_of_one_name_are_one_where_they_always_weigh_the_same(tmp_path, other, names):
+    """A face of two meshes has a smile in each of them."""
+    whole = morphed()
+    mesh = whole["meshes"][0]
+    mesh["primitives"][0]["targets"].pop()
+    mesh |= {"weights": [0.0], "extras": {"targetNames": ["smile"]}}
+    whole["meshes"].append({**mesh, "name": "lips"})
+    whole["nodes"].append({**whole["nodes"][2], "mesh": 1})
+    whole["scenes"][0]["nodes"].append(3)
+    for node, end in ((2, 0.5), (3, other)):
+        animated(whole, "weights", [0, 1], [0.0, end], "LINEAR", node=node)
+    imported = import_file(written(tmp_path, whole))
+    assert {*imported.shapes} == names
+    for animation in imported.animations:
+        assert {*animation.tracks.names} <= names
+    moved = sum(len(shape.indices) for mesh in imported.meshes for shape in mesh.shapes)
+    assert moved == 4
 
 
 def test_gltf_and_usd_move_the_same_figure_alike(shared_data):

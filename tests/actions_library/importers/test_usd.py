@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdSkel
@@ -8,6 +10,7 @@ from actions_library.folder import load_library
 from actions_library.importers import import_file
 from actions_library.importers.usd_meshes import fans
 from smd.character.kinematics import forward_kinematics
+from smd.errors import ImportedFileError
 
 FILES = [
     "CesiumMan.usdz",
@@ -114,7 +117,17 @@ def SkelRoot "Root"
         int[] faceVertexIndices = [0, 1, 2, 3]
         point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 2, 0), (0, 2, 0)]
         rel skel:skeleton = </Root/Arm>
-        uniform token[] skel:blendShapes = ["smile"]
+        uniform token[] skel:blendShapes = ["smile", "frown"]
+        rel skel:blendShapeTargets = [</Root/Skin/Up>, </Root/Skin/Down>]
+        def BlendShape "Up"
+        {
+            uniform vector3f[] offsets = [(0, 0.5, 0), (0, 0, 0.25)]
+            uniform int[] pointIndices = [3, 1]
+        }
+        def BlendShape "Down"
+        {
+            uniform vector3f[] offsets = [(0, 0, 0), (1, 0, 0), (0, 0, 0), (0, -1, 0)]
+        }
         int[] primvars:skel:jointIndices = [0,1,0,1,0,1, 0,1,0,1,0,1, 0,1,0,1,0,1, 0,1,0,1,0,1] (
             interpolation = "vertex"
             elementSize = 6
@@ -180,21 +193,95 @@ def test_of_several_skeletons_one_is_taken_by_name_or_because_it_moves_most(tmp_
         assert (other.meshes, other.animations) == ((), ())
 
 
-def test_blend_shapes_are_named_and_their_weights_sampled(tmp_path):
+def test_blend_shapes_come_with_their_offsets(tmp_path):
+    (mesh,) = import_file(written(tmp_path)).meshes
+    smile, frown = mesh.shapes
+    assert (smile.name, frown.name) == ("smile", "frown")
+    assert smile.indices.tolist() == frown.indices.tolist() == [1, 3]
+    assert smile.offsets_m == pytest.approx(np.array([[0, 0, 0.25], [0, 0.5, 0]]))
+    assert frown.offsets_m == pytest.approx(np.array([[1, 0, 0], [0, -1, 0]]))
+
+
+def test_offsets_turn_and_grow_with_their_points(tmp_path):
+    """A mesh turned and scaled when it was bound: its offsets are, and are not moved."""
+    bind = "geomBindTransform = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1))"
+    turned = ARM.replace(bind, "geomBindTransform = ((0,2,0,0),(-2,0,0,0),(0,0,2,0),(5,6,7,1))")
+    assert turned != ARM
+    (mesh,) = import_file(written(tmp_path, turned)).meshes
+    smile, _ = mesh.shapes
+    assert smile.offsets_m == pytest.approx(np.array([[0, 0, 0.5], [-1, 0, 0]]))
+
+
+def test_weights_of_blend_shapes_are_sampled(tmp_path):
     imported = import_file(written(tmp_path))
-    assert imported.shapes == ("smile", "frown")
-    weights = imported.animations[0].shape_weights
-    np.testing.assert_allclose(weights[:, 0], np.linspace(1, 0, 11), atol=1e-6)
-    np.testing.assert_allclose(weights[:, 1], np.linspace(0, 1, 11), atol=1e-6)
-    part = imported.part(imported.animations[0], 0.2, 0.5)
-    np.testing.assert_array_equal(part.shape_weights, weights[2:6])
+    (animation,) = imported.animations
+    assert animation.tracks.names == ("frown", "smile")
+    np.testing.assert_allclose(animation.tracks.value[:, 1], np.linspace(1, 0, 11), atol=1e-6)
+    np.testing.assert_allclose(animation.tracks.value[:, 0], np.linspace(0, 1, 11), atol=1e-6)
+    part = imported.part(animation, 0.2, 0.5)
+    np.testing.assert_array_equal(part.tracks.value, animation.tracks.value[2:6])
+
+
+def test_weights_that_nothing_animates_are_those_at_rest(tmp_path):
+    still = re.sub(r"\.timeSamples = \{ 0: \[0, 1\], 10: \[1, 0\] \}", " = [0.25, 0]", ARM)
+    still = re.sub(
+        r"translations\.timeSamples = \{ 0: (.*), 10: .* \}", r"translations = \1", still
+    )
+    imported = import_file(written(tmp_path, still))
+    assert imported.animations == ()
+    assert imported.rest_tracks.of(["frown", "smile"]).tolist() == [[0.25, 0.0]]
+
+
+def test_a_file_of_movement_alone_keeps_weights_of_any_name(tmp_path):
+    alone = ARM[: ARM.index("    def Mesh")] + "}\n"
+    (animation,) = import_file(written(tmp_path, alone)).animations
+    assert animation.tracks.names == ("frown", "smile")
+
+
+@pytest.mark.parametrize(
+    ("what", "instead", "said"),
+    [
+        ('= ["frown", "smile"]', '= ["brow", "smile"]', "expected shapes of its meshes, .*brow"),
+        ('skel:blendShapes = ["smile", "frown"]', 'skel:blendShapes = ["smile"]', "1 targets"),
+        ("[(0, 0.5, 0), (0, 0, 0.25)]", "[(0, 0.5, 0)]", "Up: expected 2 offsets, found 1"),
+        ("(0, 0.5, 0), (0", "(0, nan, 0), (0", "Up: expected finite offsets"),
+        ("(0, 0.5, 0), (0", "(0, inf, 0), (0", "Up: expected finite offsets"),
+        ("[3, 1]", "[4, 1]", "Up: expected point indices from 0 to 3, found 1 to 4"),
+        ("[3, 1]", "[-1, 1]", "Up: expected point indices from 0 to 3, found -1 to 1"),
+        (", (0, -1, 0)]", "]", "Down: expected 4 offsets, found 3"),
+        ("</Root/Skin/Up>", "</Root/Skin/Gone>", "Gone: expected a BlendShape, found none"),
+        ("10: [1, 0]", "10: [1, 0, 0]", "blendShapeWeights, time code .*: expected 2 finite"),
+        ("10: [1, 0]", "10: [1, nan]", "blendShapeWeights, time code .*: expected 2 finite"),
+        ('= ["frown", "smile"]', '= ["smile", "smile"]', "'smile' appears twice"),
+        ('= ["smile", "frown"]', '= ["smile", "smile"]', "smile|unique"),
+    ],
+)
+def test_damaged_blend_shapes_are_refused_in_one_line(tmp_path, what, instead, said):
+    assert what in ARM
+    with pytest.raises(ImportedFileError, match=said) as found:
+        import_file(written(tmp_path, ARM.replace(what, instead)))
+    assert "\n" not in str(found.value)
+
+
+def test_very_many_blend_shapes_are_refused_at_once(tmp_path):
+    names = ", ".join(f'"s{k}"' for k in range(10_000))
+    targets = ", ".join(f"</Root/Skin/s{k}>" for k in range(10_000))
+    many = ARM.replace('skel:blendShapes = ["smile", "frown"]', f"skel:blendShapes = [{names}]")
+    many = re.sub(r"blendShapeTargets = \[.*\]", f"blendShapeTargets = [{targets}]", many)
+    with pytest.raises(ImportedFileError, match="at most 4096 shapes, found 10000"):
+        import_file(written(tmp_path, many))
 
 
 def test_blend_shapes_alone_are_an_animation(shared_data):
     path = shared_data / "clips" / "usd" / "blendshape-and-animation-test-001.usda"
     imported = import_file(path)
-    assert imported.shapes
-    assert np.ptp(imported.animations[0].shape_weights) > 0.0
+    (mesh,) = imported.meshes
+    (shape,) = mesh.shapes
+    assert shape.indices.tolist() == [0, 4]
+    assert np.linalg.norm(shape.offsets_m, axis=-1) == pytest.approx(
+        np.hypot(0.6491, 1.0786), abs=1e-4
+    )
+    assert np.ptp(imported.animations[0].tracks.of([shape.name])) > 0.0
 
 
 @pytest.mark.parametrize("name", ["./a.usda", "../a.usda", "../meshes/a.usda"])

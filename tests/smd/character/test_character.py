@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from smd.character.blend_shape import BlendShape
 from smd.character.character import Character, Mesh
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -66,3 +67,17 @@ def test_a_mesh_does_not_change_with_the_arrays_it_was_made_of():
     mesh = Mesh(**given)
     given["points_m"][0] = 9.0
     assert mesh.points_m.max() == 2.5
+
+
+def test_a_shape_of_another_meshs_size_is_refused():
+    shape = BlendShape("smile", np.array([0, 3]), np.zeros((2, 3)))
+    with pytest.raises(CharacterError, match="'sail': shape 'smile': expected indices below 3"):
+        Mesh(**(parts() | {"shapes": (shape,)}))
+
+
+def test_a_mesh_has_each_shape_once_and_a_character_names_shapes_of_all_meshes_once():
+    one, two = (BlendShape(n, np.array([0]), np.zeros((1, 3))) for n in ("smile", "jaw"))
+    with pytest.raises(CharacterError, match="'sail': shapes: expected unique names"):
+        Mesh(**(parts() | {"shapes": (one, one)}))
+    meshes = [Mesh(**(parts() | {"shapes": shapes})) for shapes in ((one,), (), (two, one))]
+    assert Character("boat", skeleton(), tuple(meshes)).shapes == ("smile", "jaw")

@@ -5,6 +5,7 @@ import pytest
 
 from smd.character.clip import Clip
 from smd.character.skeleton import Skeleton
+from smd.character.tracks import Tracks
 from smd.errors import CharacterError
 
 
@@ -74,6 +75,7 @@ def test_a_clip_cannot_be_changed_through_its_arrays():
         ({"stage_end_frames": [-1, 1, 2, 2, 3]}, "in order"),
         ({"contact_joints": ("toe",)}, "'toe'"),
         ({"contacts": np.ones((4, 2), bool)}, "contacts"),
+        ({"tracks": Tracks(("smile",), np.zeros((5, 1)))}, "tracks: expected 4 frames, got 5"),
     ],
 )
 def test_what_does_not_fit_is_refused_by_name(change, message):
@@ -84,3 +86,7 @@ def test_what_does_not_fit_is_refused_by_name(change, message):
 def test_a_single_pose_is_no_clip():
     with pytest.raises(CharacterError, match="at least 2 frames"):
         Clip(**parts(n=1) | {"stage_end_frames": [0, 0, 0, 0, 0]})
+
+
+def test_a_clip_without_tracks_has_none_in_each_frame():
+    assert Clip(**parts(n=7)).tracks.value.shape == (7, 0)

@@ -1,11 +1,14 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from smd.character.poses import Poses, mixed, sampled
+from smd.character.poses import Poses, mixed, sampled, sampled_tracks
 from smd.geometry.rotations import inverse as inverse_of
 from smd.geometry.rotations import multiply, rotvec_from_quaternion, slerp
+from tests.naive.shaped import shaped_clip
 
 
 def angle(a, b):
@@ -48,3 +51,15 @@ def test_a_mix_goes_the_shorter_way_from_one_pose_to_the_other(library):
         whole = angle(a.rotation_xyzw[1], b.rotation_xyzw[1])
         assert angle(a.rotation_xyzw[1], mix.rotation_xyzw[1]) == pytest.approx(whole / 2, abs=1e-7)
     assert mix.translation_m[1] == pytest.approx(0.5 * (a.translation_m[1] + b.translation_m[1]))
+
+
+def test_tracks_are_sampled_where_the_poses_are():
+    clip = shaped_clip(frames=31)
+    frame = np.array([-3.0, 0.0, 7.5, 30.0, 99.0])
+    once = sampled_tracks(clip, frame).value
+    value = clip.tracks.value
+    assert once == pytest.approx(
+        np.array([value[0], value[0], 0.5 * (value[7] + value[8]), value[30], value[30]])
+    )
+    cycle = sampled_tracks(replace(clip, cyclic=True), frame + 60.0).value
+    assert cycle[2] == pytest.approx(once[2])

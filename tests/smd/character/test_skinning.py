@@ -1,13 +1,17 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from actions_library.folder import load_library
+from smd.character.blend_shape import BlendShape
 from smd.character.character import Mesh
 from smd.character.kinematics import forward_kinematics
 from smd.character.skeleton import Skeleton
 from smd.character.skinning import skin_points
+from smd.character.tracks import Tracks
 from smd.geometry.rotations import (
     matrix_from_quaternion,
     multiply,
@@ -15,6 +19,7 @@ from smd.geometry.rotations import (
     quaternion_about,
     rotate,
 )
+from tests.naive.shaped import shaped, shaped_puppet, weights_of
 from tests.naive.skinning import skinned
 
 BONE_M = 0.5
@@ -120,3 +125,51 @@ def test_the_humanoid_is_skinned_as_the_formula_says():
             fast = skin_points(mesh, clip.skeleton, q, p)
             plain = [skinned(mesh, clip.skeleton, *pose) for pose in zip(q, p, strict=True)]
             np.testing.assert_allclose(fast, plain, rtol=0.0, atol=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_shapes_are_added_before_joints_as_the_formula_says(seed):
+    rng = np.random.default_rng(seed)
+    skeleton = two_bones()
+    mesh = shaped(mesh_with(rng.normal(size=(400, 3)), rng.uniform(size=400)), seed=seed)
+    q, p = normalized(rng.normal(size=(7, 2, 4))), rng.normal(size=(7, 2, 3))
+    weights = rng.normal(size=(7, 3))
+    fast = skin_points(mesh, skeleton, q, p, weights)
+    plain = [skinned(mesh, skeleton, *pose) for pose in zip(q, p, weights, strict=True)]
+    np.testing.assert_allclose(fast, plain, rtol=0.0, atol=5e-6)
+
+
+def test_a_mesh_with_a_shape_in_is_skinned_as_that_shape_at_weight_one():
+    """Two ways to one form: bake the offsets into the points, or mix the shape in."""
+    rng = np.random.default_rng(7)
+    character = shaped_puppet()
+    q = normalized(rng.normal(size=(4, len(character.skeleton), 4)))
+    p = rng.normal(size=(4, len(character.skeleton), 3))
+    for mesh in character.meshes:
+        smile = mesh.shapes[0]
+        points = mesh.points_m.copy()
+        points[smile.indices] += smile.offsets_m
+        baked = skin_points(replace(mesh, points_m=points, shapes=()), character.skeleton, q, p)
+        weights = weights_of(mesh, Tracks(("smile",), np.ones((4, 1))))
+        mixed = skin_points(mesh, character.skeleton, q, p, weights)
+        np.testing.assert_allclose(mixed, baked, rtol=0.0, atol=5e-6)
+
+
+def test_shapes_at_weight_zero_or_that_move_nothing_leave_the_points(mesh):
+    skeleton = two_bones()
+    q, p = normalized(np.ones((3, 2, 4))), np.ones((3, 2, 3))
+    plain = skin_points(mesh, skeleton, q, p)
+    still = replace(mesh, shapes=(BlendShape.sparse("none", np.zeros((40, 3))),))
+    assert np.array_equal(skin_points(still, skeleton, q, p, np.ones(1)), plain)
+    assert np.array_equal(skin_points(shaped(mesh), skeleton, q, p, np.zeros((3, 3))), plain)
+    assert np.array_equal(skin_points(shaped(mesh), skeleton, q, p), plain)
+
+
+def test_weights_lead_as_frames_and_characters_do(mesh):
+    skeleton, mesh = two_bones(), shaped(mesh)
+    rng = np.random.default_rng(3)
+    q, p = normalized(rng.normal(size=(3, 2, 2, 4))), rng.normal(size=(3, 2, 2, 3))
+    weights = rng.uniform(size=(3, 2, 3))
+    together = skin_points(mesh, skeleton, q, p, weights)
+    alone = skin_points(mesh, skeleton, q[2, 1], p[2, 1], weights[2, 1])
+    np.testing.assert_allclose(together[2, 1], alone, atol=2e-6)

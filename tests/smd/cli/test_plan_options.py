@@ -1,11 +1,11 @@
-"""--timing and --stretch: what they give, and what they refuse."""
+"""--timing, --stretch and --hold: what they give, and what they refuse."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import pytest
-from pxr import Usd
+from pxr import Usd, UsdGeom
 
 from smd.score_file import read_score, write_score
 from tests.smd.cli.test_bad_input import expect_one_line
@@ -65,3 +65,15 @@ def test_an_animation_lasts_as_many_times_as_long_as_it_is_told_and_says_so(anim
     assert "plan: 1.5 times as long as the recording" in out + err
     ratio = lasting_s(tmp_path / "slow.usda") / lasting_s(tmp_path / "own.usda")
     assert ratio == pytest.approx(1.5, abs=0.01)
+
+
+def test_a_prop_is_held_on_request(animate, tmp_path):
+    for name, options in (("free", ()), ("held", ("--hold",))):
+        code, _, err = animate(f"{name}.usda", *options)
+        assert code == 0, err
+        stage = Usd.Stage.Open(str(tmp_path / f"{name}.usda"))
+        meshes = (UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh))
+        darts = [mesh for mesh in meshes if mesh.GetPrim().GetName() == "Dart"]
+        assert darts
+        seen = UsdGeom.Tokens.default_ if options else UsdGeom.Tokens.guide
+        assert {dart.ComputePurpose() for dart in darts} == {seen}

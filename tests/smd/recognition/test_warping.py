@@ -26,10 +26,8 @@ def nearest_by_tables(examples, courses, action, band, factors=None):
 
 
 @pytest.mark.parametrize(("samples", "band"), [(4, 0.25), (9, 0.25), (12, 0.6), (8, 1.0)])
-@pytest.mark.parametrize("lanes", [1, 30, 4096])
-@pytest.mark.parametrize("cells", [1, 1000])
-def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, lanes, cells, monkeypatch):
-    monkeypatch.setattr(warping, "LANES", lanes)
+@pytest.mark.parametrize("cells", [1, 1000, 1 << 20])
+def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, cells, monkeypatch):
     monkeypatch.setattr(warping, "CELLS", cells)
     rng = np.random.default_rng(samples)
     examples = tuple(courses_at_random(rng, count, samples, 3) for count in (3, 1, 4))
@@ -38,6 +36,16 @@ def test_the_nearest_is_as_near_as_by_the_plain_table(samples, band, lanes, cell
     expected = nearest_by_tables(examples, courses, action, band)
     found = Templates(examples, band).nearest(courses, action, np.full(len(courses), np.inf))
     np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("count", [2, 5, 12])
+def test_a_course_is_as_far_among_many_as_alone(count):
+    rng = np.random.default_rng(6)  # fewer courses than examples, as many, more
+    examples = Templates((courses_at_random(rng, 5, 12, 3),), 0.25)
+    courses, free = courses_at_random(rng, count, 12, 3), np.full(count, np.inf)
+    together = examples.nearest(courses, np.zeros(count, int), free)
+    alone = [examples.nearest(one[None], np.zeros(1, int), free[:1])[0] for one in courses]
+    assert np.array_equal(together, alone)
 
 
 def test_an_example_is_as_far_as_its_factor_says():
@@ -93,3 +101,4 @@ def test_an_example_is_no_distance_from_itself_and_nothing_from_nothing():
     examples = Templates((own,), 0.25)
     assert np.array_equal(examples.nearest(own, np.zeros(4, int), np.zeros(4)), np.zeros(4))
     assert examples.nearest(own[:0], np.zeros(0, int), np.zeros(0)).shape == (0,)
+    assert examples.at_least(own[:0], np.zeros(0, int)).shape == (0,)

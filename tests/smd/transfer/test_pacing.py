@@ -8,11 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from actions_library.folder import load_library
+from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.transfer.pacing import NEAR_M, RECOVERING, Pacing, core_frame, near_share, paced
 
 LIBRARY = load_library()
 ONCE = [action.name for action in LIBRARY.actions if not LIBRARY.clip(action.name).cyclic]
+
+
+def near(clip: Clip) -> float:
+    place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)[1]
+    return near_share(clip, place)
 
 
 def shown(pacing: Pacing) -> tuple[np.ndarray, np.ndarray]:
@@ -24,7 +30,7 @@ def shown(pacing: Pacing) -> tuple[np.ndarray, np.ndarray]:
 def test_a_clip_shorter_than_its_phrase_is_stretched_over_it():
     clip = LIBRARY.clip("punch")
     last = len(clip) - 1
-    pacing = paced(clip, near_share(clip), 3.0, 3.0 + 2.0 * clip.duration_s, pause_s=9.0)
+    pacing = paced(clip, near(clip), 3.0, 3.0 + 2.0 * clip.duration_s, pause_s=9.0)
     assert pacing.end_s == 3.0 + 2.0 * clip.duration_s
     assert pacing.frame_at(np.linspace(3.0, pacing.end_s, 5)) == pytest.approx(
         [0.0, last / 4, last / 2, last * 3 / 4, last]
@@ -35,7 +41,7 @@ def test_a_punch_strikes_when_the_phrase_says_and_comes_back_in_its_own_time():
     clip = LIBRARY.clip("punch")
     struck, last = clip.stage_end_frames[2], len(clip) - 1
     lasting_s = 0.5 * clip.duration_s
-    pacing = paced(clip, near_share(clip), 1.0, 1.0 + lasting_s, pause_s=4.0)
+    pacing = paced(clip, near(clip), 1.0, 1.0 + lasting_s, pause_s=4.0)
     struck_s = 1.0 + lasting_s * struck / last
     assert pacing.frame[-1] == last
     assert pacing.end_s == pytest.approx(struck_s + (last - struck) / clip.rate_hz)
@@ -49,10 +55,10 @@ def test_a_punch_strikes_when_the_phrase_says_and_comes_back_in_its_own_time():
 def test_what_is_lying_is_not_left_before_it_is_up_again():
     clip = LIBRARY.clip("fall")
     core, last = core_frame(clip), len(clip) - 1
-    left = round(core + near_share(clip) * (last - core))
+    left = round(core + near(clip) * (last - core))
     hips_m = clip.translation_m[:, 1, 1]
     assert hips_m[core] < 0.3 * hips_m[-1] < 0.7 * hips_m[-1] < hips_m[left]
-    assert paced(clip, near_share(clip), 0.0, 1.0, pause_s=0.0).frame[-1] > left - 1
+    assert paced(clip, near(clip), 0.0, 1.0, pause_s=0.0).frame[-1] > left - 1
 
 
 @pytest.mark.parametrize("name", ONCE)
@@ -60,7 +66,7 @@ def test_from_there_on_the_pose_is_near(name):
     clip = LIBRARY.clip(name)
     place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)[1]
     core, last = core_frame(clip), len(clip) - 1
-    left = round(core + near_share(clip) * (last - core))
+    left = round(core + near(clip) * (last - core))
     # Told without the ground root: what does not turn is compared as it is seen.
     turned = np.abs(clip.rotation_xyzw[left, 0] @ clip.rotation_xyzw[-1, 0])
     if turned > 0.999:
@@ -89,6 +95,6 @@ def test_every_pacing_keeps_its_promises(name, lasting_s, pause_s, share):
 
 def test_a_longer_pause_changes_nothing_of_the_phrase_where_the_first_was_enough():
     clip = LIBRARY.clip("slash")
-    some, more = (paced(clip, near_share(clip), 0.0, 1.1, pause_s) for pause_s in (2.0, 5.0))
+    some, more = (paced(clip, near(clip), 0.0, 1.1, pause_s) for pause_s in (2.0, 5.0))
     for knots in zip((some.time_s, some.frame), (more.time_s, more.frame), strict=True):
         np.testing.assert_allclose(*knots, atol=1e-9)

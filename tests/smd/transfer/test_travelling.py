@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from smd.acting.move import Move, Placement
+from smd.geometry.easing import smootherstep
 from smd.transfer.pacing import paced
 from smd.transfer.path import GroundPath
 from smd.transfer.repertoire import Piece
@@ -146,3 +147,27 @@ def test_a_jump_turns_in_the_air_as_the_prop_did(jump, straight_path):
     move = jumped(jump, straight_path, 3.0, Placement(np.zeros(2), 0.1))
     assert move.heading_at(np.array([1.0, 1.8])) == pytest.approx([0.1, 0.1])
     assert move.heading_at(np.array([2.4, 3.0])) == pytest.approx([0.3, 0.3])
+
+
+def test_a_planned_flight_goes_as_its_path_does_and_gets_upright_slowly(make_piece):
+    fly = make_piece(
+        "fly",
+        cyclic=True,
+        travels=True,
+        ahead_m=2.0,
+        left_stands=(2.0, 3.0),
+        right_stands=(2.0, 3.0),
+    )
+    time_s = np.linspace(0.0, 8.0, 961)
+    way_m = 5.0 * smootherstep((time_s - 1.0) / 6.0)  # from rest to rest
+    path = GroundPath(time_s, np.stack([0.0 * way_m, way_m], axis=-1), 0.0 * time_s)
+    planned = along_path(fly, path, 1.0, 7.0, AT, standing_s=0.4)
+    drawn = along_path(fly, path, 1.0, 7.0, AT)
+    hurry = [np.abs(np.diff(move.root_m[:, 1], n=2)).max() for move in (planned, drawn)]
+    at_s = planned.time_s
+    went_m = planned.root_m[:, 1] - planned.root_m[0, 1]
+    np.testing.assert_allclose(went_m, np.interp(at_s, time_s, way_m), atol=0.02)
+    assert hurry[0] < hurry[1]
+    standing_s = [(1.0 - move.presence).sum() / 120.0 for move in (planned, drawn)]
+    assert standing_s[0] == pytest.approx(1.1, abs=0.02)  # half of it at either end
+    assert standing_s[1] == pytest.approx(0.6, abs=0.02)
