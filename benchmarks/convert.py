@@ -16,6 +16,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+import numpy as np
+
 from benchmarks.process import machine, run
 
 FLOOR = """
@@ -60,6 +62,36 @@ def timed(name: str, work: Callable[[], Any]) -> Any:
     return result
 
 
+def processor_s(work: Callable[[], Any]) -> float:
+    """Return the processor time of some work."""
+    started = time.process_time()
+    work()
+    return time.process_time() - started
+
+
+def print_ratios(parse: Callable[[], Any], animate: Callable[..., Any]) -> None:
+    """Print what animate takes in parts of what parse takes, one after the other, again and again.
+
+    A ratio in one run says the same on a busy machine as on a free one, and on a fast as on a slow.
+    """
+    rounds = [
+        (
+            processor_s(parse),
+            processor_s(animate),
+            processor_s(lambda: animate(expressiveness=0.0)),
+            processor_s(lambda: animate(timing="drawn")),
+        )
+        for _ in range(5)
+    ]
+    parsed, *others = np.array(rounds).T
+    for name, taken in zip(("animate", "without Effort", "as drawn"), others, strict=True):
+        ratios = taken / parsed
+        print(
+            f"  {name:<14} {np.median(ratios):.2f} of parse's processor time "
+            f"({ratios.min():.2f} – {ratios.max():.2f})"
+        )
+
+
 def print_lengths() -> None:
     """Print what conversions of other lengths cost, one run each after another."""
     from benchmarks.takes import long_recording
@@ -93,6 +125,10 @@ def main() -> None:
         score = timed("parse", lambda: smd.parse(recording, library))
         performance = timed("animate", lambda: smd.animate(score, recording, library))
         timed("write", lambda: smd.write(performance, output))
+        print_ratios(
+            lambda: smd.parse(recording, library),
+            lambda **options: smd.animate(score, recording, library, **options),
+        )
         character = library.character
         print(
             f"  {sum(len(d) for d in recording.doodles)} rows, "

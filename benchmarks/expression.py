@@ -89,10 +89,10 @@ def played_descriptions(axes: tuple[str, str]) -> Descriptions:
         neutral = library.clip(action.name)
         if neutral.cyclic:
             continue
-        joints, study = joints_of(neutral), study_of(neutral, body)
-        for state in product(VALUES, VALUES):
-            effort = Effort(**dict(zip(axes, state, strict=True)))
-            clip = expressive(study, effort, travels=action.travels)
+        joints, states = joints_of(neutral), list(product(VALUES, VALUES))
+        efforts = [Effort(**dict(zip(axes, state, strict=True))) for state in states]
+        clips = expressive(study_of(neutral, body), efforts, travels=action.travels)
+        for state, clip in zip(states, clips, strict=True):
             motions = {part: smooth(prop_of(clip, joint)) for part, joint in joints.items()}
             found[action.name, state] = {
                 part: describe(motion) for part, motion in motions.items() if is_readable(motion)
@@ -210,9 +210,11 @@ LAWS: tuple[tuple[str, str, float, Callable[[Clip, int], float]], ...] = (
 """What should never happen with more of an axis; the sign of what may; and the measure."""
 
 
-def played_along(study: Study, axis: str, values: Sequence[float], *, travels: bool) -> list[Clip]:
+def played_along(
+    study: Study, axis: str, values: Sequence[float], *, travels: bool
+) -> tuple[Clip, ...]:
     """Return a clip played with values of one axis alone."""
-    return [expressive(study, Effort(**{axis: value}), travels=travels) for value in values]
+    return expressive(study, [Effort(**{axis: value}) for value in values], travels=travels)
 
 
 def wrong_way(values: Sequence[float], sign: float) -> float:
@@ -276,8 +278,9 @@ def print_states(library: Library) -> None:
     aims, bends = [], []
     for action in library.actions:
         study = study_of(library.clip(action.name), body)
-        for state in product((-1.0, 0.0, 1.0), repeat=4):
-            clip = expressive(study, Effort(*state), travels=action.travels)
+        states = list(product((-1.0, 0.0, 1.0), repeat=4))
+        clips = expressive(study, [Effort(*state) for state in states], travels=action.travels)
+        for state, clip in zip(states, clips, strict=True):
             aims.append((100.0 * off_aim_m(study, clip), action.name, state))
             bends.append((float(np.degrees(bends_rad(clip).min())), action.name, state))
     print(f"\n{len(bends)} clips in all 81 states; a state is time, weight, space, flow")

@@ -64,7 +64,8 @@ def draw_efforts(library: Library, action: str, axes: tuple[str, str], path: Pat
         for values in product((-1.0, 0.0, 1.0), repeat=2):
             state = dict(zip(axes, values, strict=True))
             called = ", ".join(f"{axis} {value:+.0f}" for axis, value in state.items())
-            played = expressive(study, Effort(**state), travels=library.action(action).travels)
+            travels = library.action(action).travels
+            (played,) = expressive(study, [Effort(**state)], travels=travels)
             write_clip_file(folder / "clip.usdc", played, library.character, library.character_file)
             write_filmstrip(folder / "clip.usdc", folder / "strip.png", rows=1)
             row = Image.open(folder / "strip.png").convert("RGB")

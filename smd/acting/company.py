@@ -14,6 +14,7 @@ from itertools import combinations
 import numpy as np
 
 from smd.acting.move import KNOT_RATE_HZ, Move, Playable, PlayedT
+from smd.acting.moving import rows_of
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
 from smd.geometry.runs import runs_of_true
@@ -155,11 +156,8 @@ def _shares(position_m: FloatArray, push_m: FloatArray, time_s: FloatArray) -> F
 
 def roots(moves: Sequence[Move[Playable]], time_s: FloatArray) -> FloatArray:
     """Return the position of a performer's ground root ``(n, 2)`` at some times."""
-    of = np.searchsorted([move.end_s for move in moves[:-1]], time_s, side="right")
-    place = np.empty((len(time_s), 2))
-    for i, move in enumerate(moves):
-        place[of == i] = move.root_at(time_s[of == i])
-    return place
+    rows = zip(moves, rows_of(moves, time_s), strict=True)
+    return np.concatenate([move.root_at(time_s[part]) for move, part in rows])
 
 
 def apart(

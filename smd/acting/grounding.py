@@ -10,11 +10,12 @@ import numpy as np
 from smd.acting.balance import balance_shift
 from smd.acting.flight import LOWEST
 from smd.acting.footing import footing
-from smd.acting.legs import Leg, pelvis_of, sole_height, world_of, yaw_of
+from smd.acting.legs import Leg, pelvis_of, sole_height, yaw_of
 from smd.acting.move import Footwork
 from smd.acting.slope import Slope
 from smd.acting.stepping import stepping
 from smd.character.ik import two_bone_ik
+from smd.character.kinematics import joints_in_world
 from smd.character.mass import Mass
 from smd.character.poses import Poses
 from smd.character.skeleton import Skeleton
@@ -69,8 +70,11 @@ def grounded(
     """
     stands, pivot_rad = footwork
     rise = rise or level(len(stands))
-    raw = [world_of(skeleton, leg.foot, *poses) for leg in legs]
-    own_hips = [world_of(skeleton, leg.upper, *poses)[1] for leg in legs]
+    k, weighing = len(legs), [] if mass is None else mass.joints.tolist()
+    joints = [*(leg.foot for leg in legs), *(leg.upper for leg in legs), *weighing]
+    world_q, place_m = joints_in_world(skeleton, joints, *poses)
+    raw = [(world_q[:, i], place_m[:, i]) for i in range(k)]
+    own_hips = [place_m[:, k + i] for i in range(k)]
     ridden_m = 0.0 if slope is None else slope.body_m
     higher_m = (rise.body_m + ridden_m)[:, None] * [0.0, 1.0, 0.0]
     hips = [hip_m + higher_m for hip_m in own_hips]
@@ -79,7 +83,8 @@ def grounded(
     feet = _feet(legs, raw, hips, stands, pivot_rad, lift_m, rise, slope, rate_hz)
     moved_m = np.zeros_like(poses.translation_m[:, 0])
     if mass is not None and pelvis is not None:
-        moved_m[:, [0, 2]] = _balancing(skeleton, poses, mass, feet, rise, rate_hz)
+        centre_m = mass.mean_m(place_m[:, 2 * k :])
+        moved_m[:, [0, 2]] = _balancing(centre_m, mass, feet, rise, rate_hz)
         hips = [hip_m + moved_m for hip_m in hips]
         feet = _feet(legs, raw, hips, stands, pivot_rad, lift_m, rise, slope, rate_hz)
     rotation, translation = poses.rotation_xyzw.copy(), poses.translation_m.copy()
@@ -166,16 +171,10 @@ def _feet(
 
 
 def _balancing(
-    skeleton: Skeleton,
-    poses: Poses,
-    mass: Mass,
-    feet: Sequence[_Foot],
-    rise: Rise,
-    rate_hz: float,
+    centre_m: FloatArray, mass: Mass, feet: Sequence[_Foot], rise: Rise, rate_hz: float
 ) -> FloatArray:
     """Return how far over the ground a body is moved ``(n, 2)`` for its weight's sake."""
-    centre_m = mass.centre_m(skeleton, *poses)
-    centre_m[:, 1] += rise.body_m
+    centre_m = centre_m + rise.body_m[:, None] * [0.0, 1.0, 0.0]
     soles = [
         [foot.ankle_m + rotate(foot.rotation_xyzw, point) for point in (f.heel_m, f.ball_m)]
         for foot, f in ((foot, foot.leg) for foot in feet)
@@ -297,8 +296,9 @@ def _bring(skeleton: Skeleton, foot: _Foot, rotation: FloatArray, translation: F
     The knee keeps pointing where it did.
     """
     leg = foot.leg
-    parent_q, _ = world_of(skeleton, int(skeleton.parents[leg.upper]), rotation, translation)
-    thigh_q, hip = world_of(skeleton, leg.upper, rotation, translation)
+    joints = [int(skeleton.parents[leg.upper]), leg.upper]
+    world_q, place_m = joints_in_world(skeleton, joints, rotation, translation)
+    (parent_q, thigh_q), hip = np.moveaxis(world_q, 1, 0), place_m[:, 1]
     hinge = rotate(thigh_q, leg.limb.upper_hinge)
     pole = np.cross(hinge, hip - foot.ankle_m)
     upper_q, lower_q = two_bone_ik(leg.limb, hip, foot.ankle_m, pole, softness=SOFTNESS)

@@ -9,7 +9,7 @@ import numpy as np
 
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import inverse, normalized, rotate
@@ -53,9 +53,7 @@ def feet_of(clip: Clip) -> tuple[int, ...]:
     skeleton = clip.skeleton
     if not clip.contact_joints:
         return ()
-    _, place = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    _, place = rest_in_world(skeleton)
     up = place[:, 1] - place[:, 1].min()
     contact = {skeleton.index(name) for name in clip.contact_joints}
     contact = {joint for joint in contact if up[joint] < LOW_AT_REST * up.max()}
@@ -75,9 +73,7 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
     The knee is taken to point ahead. The ball is at the foot's first child, the heel on the
     ground behind the ankle; a foot without a child touches the ground below its joint alone.
     """
-    world_q, world_p = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    world_q, world_p = rest_in_world(skeleton)
     legs = []
     for foot in feet:
         lower = int(skeleton.parents[foot])
@@ -116,7 +112,7 @@ def world_of(
 
 
 def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
-    """Return which way a foot points over the ground, about +Y from +Z, without jumps.
+    """Return which way a foot points over the ground ``(n, …)``, about +Y from +Z, without jumps.
 
     The steeper it is, the more its instep decides: on tiptoe, and beyond, a foot points where the
     shin's front does.
@@ -124,8 +120,8 @@ def yaw_of(leg: Leg, foot_xyzw: FloatArray) -> FloatArray:
     ahead = leg.ball_m - leg.heel_m
     ahead = normalized(ahead - (ahead @ leg.up) * leg.up)
     along, up = rotate(foot_xyzw, ahead), rotate(foot_xyzw, leg.up)
-    along = along - along[:, 1:2] ** 3 * up
-    return np.unwrap(np.arctan2(along[:, 0], along[:, 2]))
+    along = along - along[..., 1:2] ** 3 * up
+    return np.unwrap(np.arctan2(along[..., 0], along[..., 2]), axis=0)
 
 
 def pelvis_of(skeleton: Skeleton, legs: Sequence[Leg]) -> int | None:

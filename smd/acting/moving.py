@@ -128,13 +128,10 @@ def placed(
     poses: Poses, moves: Sequence[Move[Playable]], time_s: FloatArray, rate_hz: float
 ) -> Poses:
     """Put the ground root of poses where the moves have it."""
-    ends = [move.end_s for move in moves[:-1]]
-    of = np.searchsorted(ends, time_s, side="right")
     heading = np.empty(len(time_s))
     translation = poses.translation_m.copy()
-    for i, move in enumerate(moves):
-        rows = np.flatnonzero(of == i)
-        translation[rows[:, None], 0, [[0, 2]]] = move.root_at(time_s[rows])
+    for move, rows in zip(moves, rows_of(moves, time_s), strict=True):
+        translation[rows, 0, ::2] = move.root_at(time_s[rows])
         heading[rows] = move.heading_at(time_s[rows])
     rotation = poses.rotation_xyzw.copy()
     heading = gaussian_smoothed(heading, TURNING_S * rate_hz)

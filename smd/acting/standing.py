@@ -23,7 +23,7 @@ def standing(
     clip: Clip,
     legs: Sequence[Leg],
     feet: Sequence[int] | None = None,
-    world: tuple[FloatArray, FloatArray] | None = None,
+    rests: BoolArray | None = None,
 ) -> dict[int, BoolArray]:
     """Return when each foot stands ``(n,)``, by its joint.
 
@@ -35,8 +35,8 @@ def standing(
     ----------
     feet
         Joints; by default `feet_of` the clip.
-    world
-        Rotation ``(n, legs, 4)`` and place ``(n, legs, 3)`` of the legs' feet, where known.
+    rests
+        ``(n, legs)`` of the legs' feet, where known: `resting`.
     """
     feet = feet_of(clip) if feet is None else feet
     labelled = {foot: np.zeros(len(clip), dtype=bool) for foot in feet}
@@ -46,25 +46,38 @@ def standing(
             foot = int(clip.skeleton.parents[foot])
         if foot >= 0:  # no foot: a hand
             labelled[foot] |= touches
-    if world is None:
+    if rests is None:
         local = clip.rotation_xyzw, clip.translation_m
         world = joints_in_world(clip.skeleton, [leg.foot for leg in legs], *local)
-    foot_q, ankle = world
+        rests = resting(legs, *world, clip.rate_hz)
     for i, leg in enumerate(legs):
-        if leg.foot not in labelled or not labelled[leg.foot].any():
-            continue
-        labelled[leg.foot] |= _rests(clip, leg, foot_q[:, i], ankle[:, i])
+        if leg.foot in labelled and labelled[leg.foot].any():
+            labelled[leg.foot] |= rests[:, i]
     return labelled
 
 
-def _rests(clip: Clip, leg: Leg, foot_q: FloatArray, ankle: FloatArray) -> BoolArray:
-    """Return when the heel or the ball of a foot rests on the ground, in the clip's own world."""
-    rests = np.zeros(len(clip), dtype=bool)
-    for point_m, height_m in ((leg.heel_m, 0.0), (leg.ball_m, leg.ball_height_m)):
-        place = ankle + rotate(foot_q, point_m)
+def resting(
+    legs: Sequence[Leg], foot_xyzw: FloatArray, ankle_m: FloatArray, rate_hz: float
+) -> BoolArray:
+    """Return when heels or balls of feet rest on the ground ``(n, …, legs)``.
+
+    Parameters
+    ----------
+    foot_xyzw, ankle_m
+        ``(n, …, legs, 4)`` and ``(n, …, legs, 3)`` in the clip's own world.
+    """
+    rests = np.zeros(ankle_m.shape[:-1], dtype=bool)
+    if not legs:
+        return rests
+    balls = [leg.ball_height_m for leg in legs]
+    for points_m, height_m in (
+        ([leg.heel_m for leg in legs], np.zeros(len(legs))),
+        ([leg.ball_m for leg in legs], np.array(balls)),
+    ):
+        place = ankle_m + rotate(foot_xyzw, np.array(points_m))
         step = np.diff(place, axis=0)
-        still = np.hypot(step[:, 0], step[:, 2]) * clip.rate_hz < RESTING_M_S
-        touches = place[:, 1] - height_m < TOUCHING_M
+        still = np.hypot(step[..., 0], step[..., 2]) * rate_hz < RESTING_M_S
+        touches = place[..., 1] - height_m < TOUCHING_M
         rests[1:] |= still & touches[1:]
         rests[:-1] |= still & touches[:-1]
     return rests

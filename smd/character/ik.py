@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from laban.frozen import Frozen
-from smd.character.kinematics import forward_kinematics
+from smd.character.kinematics import rest_in_world
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, frozen_array
@@ -111,9 +111,7 @@ def limb_of(skeleton: Skeleton, upper: str, middle: str, end: str, rest_pole: Ar
     u, m, e = skeleton.index(upper), skeleton.index(middle), skeleton.index(end)
     if skeleton.parents[m] != u or skeleton.parents[e] != m:
         raise CharacterError(f"limb: expected {upper!r}, {middle!r}, {end!r} each to hold the next")
-    world_q, world_p = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    world_q, world_p = rest_in_world(skeleton)
     hinge = np.cross(normalized(rest_pole), normalized(world_p[e] - world_p[u]))
     return Limb(
         upper_bone_m=skeleton.rest_translation_m[m],

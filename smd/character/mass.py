@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from laban.frozen import Frozen
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.roles import BodyPlan, LimbPlan, body_plan
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -59,15 +59,13 @@ class Mass(Frozen):
         return self.mean_m(place_m)
 
     def mean_m(self, place_m: FloatArray) -> FloatArray:
-        """Return the centre of mass ``(n, 3)``, given where its joints are ``(n, k, 3)``."""
-        return np.asarray(np.einsum("k,nkc->nc", self.share, place_m))
+        """Return the centre of mass ``(…, 3)``, given where its joints are ``(…, k, 3)``."""
+        return np.asarray(np.einsum("k,...kc->...c", self.share, place_m))
 
 
 def mass_of(skeleton: Skeleton) -> Mass | None:
     """Return where a body's weight is; None where no legs carry it."""
-    _, place_m = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    _, place_m = rest_in_world(skeleton)
     plan = body_plan(skeleton.joints, skeleton.parents.tolist(), place_m, front=(0.0, 0.0, 1.0))
     legs = [limb for limb in plan.limbs if limb.kind == "leg"]
     if not legs:

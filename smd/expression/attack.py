@@ -6,16 +6,15 @@ a foot gets from one stand to the next, and how trunk and arms get through the s
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from smd.character.clip import Clip
+from smd.character.poses import Poses
 from smd.character.skeleton import Skeleton
 from smd.expression.body import Body
 from smd.expression.operators import at_frames
 from smd.geometry.arrays import BoolArray, FloatArray
-from smd.geometry.rotations import normalized
+from smd.geometry.rotations import normalized, sign_continuous
 from smd.geometry.runs import runs_of_true
 
 ATTACK, LINGER = 3.0, 2.0
@@ -24,24 +23,27 @@ as much, a sudden one would come to a stand on its way; and one that swings as a
 evener than with 2, where its greatest speed is 0.83 times its own."""
 
 
-def attacked(u: FloatArray, time: float) -> FloatArray:
+def attacked(u: FloatArray, time: FloatArray | float) -> FloatArray:
     """Return which moment of a step to show at each, both from 0 to 1; its ends keep their pace.
 
     Sudden: quick at first, then slow. Sustained: quicker at both ends and slower in the middle,
     where a step is at its quickest.
     """
     bell = (u * (1.0 - u)) ** 2
-    if time >= 0.0:
-        return u + ATTACK * time * bell
-    return u + LINGER * time * bell * (2.0 * u - 1.0)
+    return u + time * bell * np.where(np.asarray(time) >= 0.0, ATTACK, LINGER * (2.0 * u - 1.0))
 
 
-def with_attack(clip: Clip, time: float, body: Body) -> Clip:
-    """Return a cycle whose steps have the attack of an Effort of Time.
+def with_attack(poses: Poses, time: FloatArray, clip: Clip, body: Body) -> Poses:
+    """Return a stack of cycles whose steps have the attack of an Effort of Time ``(e,)``.
 
     Each leg's swing is retimed by itself, and trunk and arms from one foot's touchdown to the
     next one's. What stands, the pelvis and the ground root stay; what never touches the ground
     does not step, and stays as it is.
+
+    Parameters
+    ----------
+    clip
+        Whose poses they are, changed or not: it says when each foot stands.
     """
     last = len(clip) - 1
     stands = {
@@ -51,20 +53,20 @@ def with_attack(clip: Clip, time: float, body: Body) -> Clip:
     }
     downs = sorted({down % last for stand in stands.values() for _, down in _swings(stand)})
     if not downs:
-        return clip
-    rotation = clip.rotation_xyzw.copy()
+        return poses
+    rotation = sign_continuous(poses.rotation_xyzw)
     for effector in body.effectors:
         if effector.end in stands:
             leg = [effector.base, *_between(clip.skeleton, effector.base, effector.beyond)]
             source = _retimed(last, _swings(stands[effector.end]), time)
-            rotation[:, leg] = _shown(clip, leg, source)
+            rotation[:, :, leg] = normalized(at_frames(rotation[:, :, leg], source))
     steps = [
         (down, after + last * (after <= down))
         for down, after in zip(downs, [*downs[1:], downs[0]], strict=True)
     ]
-    upper = list(body.upper)
-    rotation[:, upper] = _shown(clip, upper, _retimed(last, steps, time))
-    return replace(clip, rotation_xyzw=rotation)
+    upper, source = list(body.upper), _retimed(last, steps, time)
+    rotation[:, :, upper] = normalized(at_frames(rotation[:, :, upper], source))
+    return Poses(rotation, poses.translation_m)
 
 
 def _columns(clip: Clip, joints: frozenset[int]) -> list[int]:
@@ -95,16 +97,13 @@ def _swings(stand: BoolArray) -> list[tuple[int, int]]:
     ]
 
 
-def _retimed(last: int, stretches: list[tuple[int, int]], time: float) -> FloatArray:
-    """Return which frame of a cycle of ``last`` steps to show at each ``(last + 1,)``."""
-    source = np.arange(last + 1, dtype=np.float64)
+def _retimed(last: int, stretches: list[tuple[int, int]], time: FloatArray) -> FloatArray:
+    """Return which frame of a cycle of ``last`` steps to show at each ``(last + 1, e)``."""
+    source = np.repeat(np.arange(last + 1, dtype=np.float64)[:, None], len(time), axis=1)
     for start, end in stretches:
         at = np.arange(start, end + 1)
-        source[at % last] = start + (end - start) * attacked((at - start) / (end - start), time)
+        u = (at - start) / (end - start)
+        source[at % last] = start + (end - start) * attacked(u[:, None], time)
     source[:-1] %= last
     source[-1] = source[0]
     return source
-
-
-def _shown(clip: Clip, joints: list[int], source: FloatArray) -> FloatArray:
-    return normalized(at_frames(clip.rotation_xyzw[:, joints], source))

@@ -8,7 +8,7 @@ import numpy as np
 
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
-from smd.character.kinematics import forward_kinematics
+from smd.character.kinematics import rest_in_world
 from smd.character.roles import BodyPlan, LimbPlan, body_plan
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
@@ -92,9 +92,7 @@ class Body:
 def body_of(clip: Clip) -> Body:
     """Return the joints of a clip's skeleton that express Effort."""
     skeleton = clip.skeleton
-    turned, place = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
+    turned, place = rest_in_world(skeleton)
     plan = body_plan(skeleton.joints, skeleton.parents.tolist(), place, front=(0.0, 0.0, 1.0))
     trunk = plan.spine[: plan.spine.index(plan.chest) + 1] if plan.chest in plan.spine else ()
     after = plan.spine[len(trunk) :]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from smd.character.clip import Clip
 from smd.character.ik import Limb
 from smd.character.kinematics import joints_in_world
+from smd.character.poses import Poses
+from smd.character.skeleton import Skeleton
 from smd.expression.body import Arm
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import smootherstep
@@ -38,13 +38,13 @@ TOUCHING_M, FREE_M = 0.06, 0.22
 
 
 class ArmPoses(NamedTuple):
-    """Arms in the world, a frame each.
+    """Arms in the world, a frame each; in a stack, a frame and a state of Effort each.
 
     Attributes
     ----------
-    above_xyzw, upper_xyzw, middle_xyzw : (n, a, 4) how what they hang from, shoulders and elbows
+    above_xyzw, upper_xyzw, middle_xyzw : (n, …, a, 4) how what they hang from, shoulders and elbows
         are turned.
-    shoulder_m, elbow_m, hand_m : (n, a, 3).
+    shoulder_m, elbow_m, hand_m : (n, …, a, 3).
     """
 
     above_xyzw: FloatArray
@@ -55,17 +55,17 @@ class ArmPoses(NamedTuple):
     hand_m: FloatArray
 
 
-def arm_poses(clip: Clip, arms: Sequence[Arm]) -> ArmPoses:
+def arm_poses(skeleton: Skeleton, poses: Poses, arms: Sequence[Arm]) -> ArmPoses:
     """Return arms in the clip's own world."""
-    above = [int(clip.skeleton.parents[arm.upper]) for arm in arms]
+    above = [int(skeleton.parents[arm.upper]) for arm in arms]
     chains = [above, *zip(*((arm.upper, arm.middle, arm.hand) for arm in arms), strict=True)]
     joints = [joint for part in chains for joint in part]
-    q, p = joints_in_world(clip.skeleton, joints, clip.rotation_xyzw, clip.translation_m)
-    n, a = len(clip), len(arms)
-    turned, place = q.reshape(n, -1, a, 4), p.reshape(n, -1, a, 3)
+    q, p = joints_in_world(skeleton, joints, poses.rotation_xyzw, poses.translation_m)
+    a = len(arms)
+    parts = [slice(i * a, (i + 1) * a) for i in range(4)]
     return ArmPoses(
-        *(turned[:, i] for i in range(3)),
-        *(place[:, i] for i in range(1, 4)),
+        *(q[..., part, :] for part in parts[:3]),
+        *(p[..., part, :] for part in parts[1:]),
     )
 
 
@@ -74,8 +74,10 @@ def bearing(height_m: FloatArray) -> FloatArray:
     return 1.0 - smootherstep((height_m - TOUCHING_M) / (FREE_M - TOUCHING_M))
 
 
-def with_hands_moved(clip: Clip, arms: Sequence[Arm], pose: ArmPoses, offset_m: FloatArray) -> Clip:
-    """Return a clip whose hands are elsewhere by ``offset_m (n, a, 3)`` in the world.
+def with_hands_moved(
+    poses: Poses, arms: Sequence[Arm], pose: ArmPoses, offset_m: FloatArray
+) -> Poses:
+    """Return poses whose hands are elsewhere by ``offset_m (n, …, a, 3)`` in the world.
 
     An elbow bends as the new distance needs it by the law of cosines, in the plane in which it
     is bent; then the whole arm swings to where the hand should be. So nothing changes where there
@@ -85,14 +87,14 @@ def with_hands_moved(clip: Clip, arms: Sequence[Arm], pose: ArmPoses, offset_m: 
     Parameters
     ----------
     pose
-        The arms' own in this clip.
+        The arms' own.
     """
     have = pose.hand_m - pose.shoulder_m
     want = have + offset_m
-    own, wanted = np.linalg.norm([have, want], axis=-1)
+    spans = np.moveaxis(np.linalg.norm([have, want], axis=-1), -1, 1)
     more = [
-        arm.limb.bend_rad(_reachable_m(there, here, arm.limb)) - arm.limb.bend_rad(here)
-        for arm, here, there in zip(arms, own.T, wanted.T, strict=True)
+        arm.limb.bend_rad(_reachable_m(wanted, own, arm.limb)) - arm.limb.bend_rad(own)
+        for arm, own, wanted in zip(arms, *spans, strict=True)
     ]
     upper_m, lower_m = pose.elbow_m - pose.shoulder_m, pose.hand_m - pose.elbow_m
     hinge = rotate(pose.upper_xyzw, np.stack([arm.limb.upper_hinge for arm in arms]))
@@ -101,14 +103,14 @@ def with_hands_moved(clip: Clip, arms: Sequence[Arm], pose: ArmPoses, offset_m: 
     swing = quaternion_between(upper_m + rotate(bend, lower_m), want)
     upper = multiply(swing, pose.upper_xyzw)
     middle = multiply(multiply(swing, bend), pose.middle_xyzw)
-    rotation = clip.rotation_xyzw.copy()
-    rotation[:, [arm.upper for arm in arms]] = multiply(inverse(pose.above_xyzw), upper)
-    rotation[:, [arm.middle for arm in arms]] = multiply(inverse(upper), middle)
-    return replace(clip, rotation_xyzw=rotation)
+    rotation = poses.rotation_xyzw.copy()
+    rotation[..., [arm.upper for arm in arms], :] = multiply(inverse(pose.above_xyzw), upper)
+    rotation[..., [arm.middle for arm in arms], :] = multiply(inverse(upper), middle)
+    return Poses(rotation, poses.translation_m)
 
 
 def _reachable_m(wanted_m: FloatArray, own_m: FloatArray, limb: Limb) -> FloatArray:
-    """Return the distances ``(n,)`` that an arm takes for wanted ones: its own for its own.
+    """Return the distances ``(n, …)`` that an arm takes for wanted ones: its own for its own.
 
     Over the last part of its reach it straightens more and more slowly, and never all the way;
     that part begins where the arm is anyway, if it is straighter. Had also an arm's own distance
@@ -133,21 +135,21 @@ def _bending_axis(hinge: FloatArray, upper_m: FloatArray, lower_m: FloatArray) -
 
 
 def with_hands_kept(
-    clip: Clip, arms: Sequence[Arm], hands_m: FloatArray, bearing: FloatArray
-) -> Clip:
-    """Return a clip whose hands rest on the ground where they should.
+    poses: Poses, skeleton: Skeleton, arms: Sequence[Arm], hands_m: FloatArray, bearing: FloatArray
+) -> Poses:
+    """Return poses whose hands rest on the ground where they should.
 
     Parameters
     ----------
     hands_m
-        ``(n, a, 3)`` where each arm's hand should be while it rests.
+        ``(n, …, a, 3)`` where each arm's hand should be while it rests.
     bearing
-        ``(n, a)`` how surely it does.
+        ``(n, …, a)`` how surely it does.
     """
-    resting = np.flatnonzero(bearing.any(axis=0)).tolist()
+    resting = [i for i in range(len(arms)) if bearing[..., i].any()]
     if not resting:
-        return clip
+        return poses
     arms = [arms[i] for i in resting]
-    pose = arm_poses(clip, arms)
-    gap = hands_m[:, resting] - pose.hand_m
-    return with_hands_moved(clip, arms, pose, bearing[:, resting, None] * gap)
+    pose = arm_poses(skeleton, poses, arms)
+    gap = hands_m[..., resting, :] - pose.hand_m
+    return with_hands_moved(poses, arms, pose, bearing[..., resting, None] * gap)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from smd.character.clip import Clip
+from smd.character.poses import Poses
 from smd.expression.body import Body
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
@@ -27,36 +27,43 @@ DAMPED_S = 0.07
 """Smoothing of bound movement."""
 
 
-def sprung(clip: Clip, joints: Sequence[int], body: Body, share: FloatArray) -> Clip:
-    """Return a clip in which joints lag, overshoot and overlap, each following by a spring.
+def sprung(poses: Poses, clip: Clip, joints: Sequence[int], body: Body, share: FloatArray) -> Poses:
+    """Return poses in which joints lag, overshoot and overlap, each following by a spring.
 
     Parameters
     ----------
+    poses
+        ``(n, …, j, 4)``, as those of an operator.
+    clip
+        Whose they are, changed or not.
     share
-        ``(n,)`` from 0, the clip's own pose, to 1, the spring's.
+        ``(n, …)`` from 0, the poses themselves, to 1, the spring's.
     """
     at = list(joints)
     softer = np.array([SOFTER ** _depth(clip, joint, body) for joint in at])
     omega = 2.0 * np.pi * SPRING_HZ / clip.rate_hz * softer
     damping = np.array([1.0 if joint in body.hinges else DAMPING for joint in at])
-    rotation = clip.rotation_xyzw.copy()
-    own = rotation[:, at]
+    own = sign_continuous(poses.rotation_xyzw[..., at, :])
     swung = _swung(_laps(own) if clip.cyclic else own, omega, damping)[-len(own) :]
-    rotation[:, at] = _mixed(own, swung, share[:, None])
-    return replace(clip, rotation_xyzw=rotation)
+    return _with(poses, at, _mixed(own, swung, share))
 
 
-def damped(clip: Clip, joints: Sequence[int], share: FloatArray) -> Clip:
-    """Return a clip whose joints lose quick, small movements; parameters as in `sprung`."""
-    rotation = clip.rotation_xyzw.copy()
-    own = rotation[:, list(joints)]
+def damped(poses: Poses, clip: Clip, joints: Sequence[int], share: FloatArray) -> Poses:
+    """Return poses whose joints lose quick, small movements; parameters as in `sprung`."""
+    at = list(joints)
+    own, n = sign_continuous(poses.rotation_xyzw[..., at, :]), len(clip) - 1
+    whole = _laps(own) if clip.cyclic else own
+    even = gaussian_smoothed(whole, DAMPED_S * clip.rate_hz)
     if clip.cyclic:
-        n = len(own) - 1
-        even = gaussian_smoothed(_laps(own), DAMPED_S * clip.rate_hz)[n : 2 * n + 1]
-    else:
-        even = gaussian_smoothed(own, DAMPED_S * clip.rate_hz)
-    rotation[:, list(joints)] = _mixed(own, even, share[:, None])
-    return replace(clip, rotation_xyzw=rotation)
+        even = even[n : 2 * n + 1]
+    return _with(poses, at, _mixed(own, even, share))
+
+
+def _with(poses: Poses, joints: list[int], rotation_xyzw: FloatArray) -> Poses:
+    """Return poses in which some joints are rotated otherwise."""
+    rotation = poses.rotation_xyzw.copy()
+    rotation[..., joints, :] = rotation_xyzw
+    return Poses(rotation, poses.translation_m)
 
 
 def _laps(own: FloatArray) -> FloatArray:
@@ -65,7 +72,7 @@ def _laps(own: FloatArray) -> FloatArray:
 
 
 def _swung(wanted: FloatArray, omega: FloatArray, damping: FloatArray) -> FloatArray:
-    """Return how springs follow values ``(n, j, 4)`` from rest; ``omega`` is in radians a frame.
+    """Return how springs follow values ``(n, …, j, 4)`` from rest; ``omega`` is in radians a frame.
 
     x'' = omega^2 (wanted - x) - 2 damping omega x', by the trapezoidal rule: stable for any omega.
     It is solved in the frequency domain, with room after the end for the swing to decay.
@@ -75,13 +82,14 @@ def _swung(wanted: FloatArray, omega: FloatArray, damping: FloatArray) -> FloatA
     late = np.exp(-2j * np.pi * np.arange(size // 2 + 1) / size)[:, None]  # by one frame
     pull = (half * (1.0 + late)) ** 2
     response = pull / ((1.0 - late) ** 2 + 2.0 * damping * half * (1.0 - late**2) + pull)
-    moved = np.fft.rfft(wanted - wanted[:1], size, axis=0) * response[..., None]
+    response = response.reshape(len(late), *(1,) * (wanted.ndim - 3), len(omega), 1)
+    moved = np.fft.rfft(wanted - wanted[:1], size, axis=0) * response
     return wanted[:1] + np.fft.irfft(moved, size, axis=0)[: len(wanted)]
 
 
 def _mixed(own: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
     other = np.where(np.sum(own * other, axis=-1, keepdims=True) < 0.0, -other, other)
-    return normalized(own + share[..., None] * (other - own))
+    return normalized(own + share[..., None, None] * (other - own))
 
 
 def _depth(clip: Clip, joint: int, body: Body) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -44,8 +44,6 @@ class Study:
         near that moment, to 1.
     hands_m : (n, a, 3) where the hands of the body's arms are.
     bearing : (n, a) how surely each of them rests on the ground, from 0 to 1.
-    spaced : the clip as each Space plays it that was asked for so far, before anything else: the
-        same whatever Time, Weight and Flow are, and half of the work.
     """
 
     clip: Clip
@@ -59,7 +57,6 @@ class Study:
     carried: FloatArray
     hands_m: FloatArray
     bearing: FloatArray
-    spaced: dict[float, Clip] = field(default_factory=dict)
 
 
 def study_of(clip: Clip, body: Body) -> Study:

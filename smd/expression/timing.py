@@ -190,11 +190,17 @@ def flowing_slowness(slowness: FloatArray, clip: Clip, flow: float) -> FloatArra
     return np.diff(held)
 
 
-def fastest_paces(clip: Clip) -> FloatArray:
-    """Return how many frames of a clip one step may pass ``(n - 1,)``, by its fastest joint."""
-    q = clip.rotation_xyzw[:, 1:]
-    cosine = np.abs(np.einsum("nji,nji->nj", q[1:], q[:-1])).min(axis=1, initial=1.0)
-    turning_rad_s = 2.0 * np.arccos(np.minimum(cosine, 1.0)) * clip.rate_hz
+def fastest_paces(rotation_xyzw: FloatArray, rate_hz: float) -> FloatArray:
+    """Return how many frames one step of poses may pass ``(n - 1, …)``, by their fastest joint.
+
+    Parameters
+    ----------
+    rotation_xyzw
+        ``(n, …, j, 4)`` of the poses.
+    """
+    q = rotation_xyzw[..., 1:, :]
+    cosine = np.abs(np.einsum("...ji,...ji->...j", q[1:], q[:-1])).min(axis=-1, initial=1.0)
+    turning_rad_s = 2.0 * np.arccos(np.minimum(cosine, 1.0)) * rate_hz
     return np.clip(FASTEST_TURN_RAD_S / np.maximum(turning_rad_s, 1e-9), 1.0, FASTEST)
 
 

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from smd.character.clip import Clip
+from smd.character.poses import Poses
+from smd.expression.aim import seen_from_root
 from smd.expression.reaching import TOUCHING_M, arm_poses, with_hands_moved
 from smd.expression.study import Study
 from smd.geometry.arrays import FloatArray
@@ -69,7 +70,7 @@ class Held(NamedTuple):
     Attributes
     ----------
     free : (n,) how freely it may be moved, from 0 to 1.
-    shoulder_m : (n, 3) where its shoulder is, in the frame of the path.
+    shoulder_m : (n, e, 3) where its shoulder is in each state, in the frame of the path.
     reach_m : of its arm.
     through : frames whose places the path keeps, as in `sweeps`.
     """
@@ -81,9 +82,9 @@ class Held(NamedTuple):
 
 
 def redrawn(
-    position_m: FloatArray, space: float, rate_hz: float, held: Held | None = None
+    position_m: FloatArray, space: FloatArray, rate_hz: float, held: Held | None = None
 ) -> FloatArray:
-    """Return the displacement ``(n, 3)`` of a path ``(n, 3)``, zero where it turns.
+    """Return the displacements ``(n, e, 3)`` of a path ``(n, 3)``, zero where it turns.
 
     Each sweep is displaced in one shape, by one amount: what holds the hand back at one moment
     holds it back in all, since half a straight way is no straighter one.
@@ -91,27 +92,31 @@ def redrawn(
     Parameters
     ----------
     space
-        From -1, indirect: what bends bends more, what is straight bows out and weaves; to +1,
-        direct: each sweep goes nearly straight. A path that returns to its start has no straight
-        way, and is the less straightened the rounder it is.
+        ``(e,)`` from -1, indirect: what bends bends more, what is straight bows out and weaves; to
+        +1, direct: each sweep goes nearly straight. A path that returns to its start has no
+        straight way, and is the less straightened the rounder it is.
     held
         What holds it back; nothing, by default.
     """
-    offset = np.zeros_like(position_m)
+    offset = np.zeros((len(position_m), len(space), 3))
     through = held.through if held else ()
+    ways = [(direct, np.flatnonzero(space > 0.0 if direct else space < 0.0)) for direct in (0, 1)]
     for start, end in sweeps(position_m, rate_hz, through):
         at = slice(start, end + 1)
-        shape = _displacement(position_m[at], direct=space > 0.0)
-        amount = abs(space)
-        if held and shape.any():
-            amount *= float(held.free[at].min())
-            arm = position_m[at] - held.shoulder_m[at]
-            amount = min(amount, _most_beside(arm, shape, PASSING * held.reach_m))
-        offset[at] = amount * shape
+        for direct, states in ways:
+            if not len(states):
+                continue
+            shape = _displacement(position_m[at], direct=bool(direct))[:, None]
+            amount = np.abs(space[states])
+            if held and shape.any():
+                arm = position_m[at, None] - held.shoulder_m[at, states]
+                most = _most_beside(arm, shape, PASSING * held.reach_m)
+                amount = np.minimum(amount * held.free[at].min(), most)
+            offset[at, states] = amount[:, None] * shape
     smooth = gaussian_smoothed(offset, STEADY_S * rate_hz) if through else offset
     for frame in through:
         away = (np.arange(len(offset)) - frame) / (2.0 * STEADY_S * rate_hz)
-        smooth = smooth - np.exp(-0.5 * away * away)[:, None] * smooth[frame]
+        smooth = smooth - np.exp(-0.5 * away * away)[:, None, None] * smooth[frame]
     return smooth
 
 
@@ -133,25 +138,24 @@ def _displacement(path: FloatArray, *, direct: bool) -> FloatArray:
     return BENT_MORE * bend + length * (arc + weave)
 
 
-def _most_beside(arm_m: FloatArray, shape: FloatArray, nearest_m: float) -> float:
-    """Return how much of a displacement leads a hand no nearer to its shoulder than a distance.
+def _most_beside(arm_m: FloatArray, shape: FloatArray, nearest_m: float) -> FloatArray:
+    """Return how much of a displacement ``(e,)`` leads hands no nearer to their shoulders than so.
 
-    Where it is nearer anyway, it may come nearer still, by a fifth. Through the shoulder, an arm
+    Where one is nearer anyway, it may come nearer still, by a fifth. Through the shoulder, an arm
     would turn over.
 
     Parameters
     ----------
     arm_m, shape
-        ``(n, 3)`` from shoulder to hand, and what is added to it.
+        ``(n, e, 3)`` from shoulder to hand, and ``(n, 1, 3)``, what is added to it.
     """
     far = np.sum(arm_m * arm_m, axis=-1)
     least = np.minimum(nearest_m**2, 0.64 * far)
     inward, size = -np.sum(arm_m * shape, axis=-1), np.sum(shape * shape, axis=-1)
     inside = inward * inward - size * (far - least)
     meets = (inward > 0.0) & (inside > 0.0)
-    if not meets.any():
-        return np.inf
-    return float(((inward[meets] - np.sqrt(inside[meets])) / size[meets]).min())
+    most = (inward - np.sqrt(np.maximum(inside, 0.0))) / np.maximum(size, np.finfo(float).tiny)
+    return np.where(meets, most, np.inf).min(axis=0)
 
 
 def _across(chord: FloatArray, bend: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -164,8 +168,8 @@ def _across(chord: FloatArray, bend: FloatArray) -> tuple[FloatArray, FloatArray
     return out, np.cross(along, out)
 
 
-def with_hands_redrawn(clip: Clip, study: Study, space: float) -> Clip:
-    """Return a clip whose hands' paths are straighter, or wander, as seen from the ground root.
+def with_hands_redrawn(poses: Poses, study: Study, space: FloatArray) -> Poses:
+    """Return a stack whose hands' paths are straighter, or wander, as seen from the ground root.
 
     It is seen from there that a path is straight; a chest that bows bends it. A hand that bears
     weight stays, and none goes under the ground. Where the execution begins and ends, the body is
@@ -173,25 +177,25 @@ def with_hands_redrawn(clip: Clip, study: Study, space: float) -> Clip:
 
     Parameters
     ----------
-    clip
-        The study's, its trunk as it is to be.
+    poses
+        ``(n, e, j, …)`` the study's, its trunk as it is to be.
     space
-        As in `redrawn`.
+        ``(e,)``, as in `redrawn`.
     """
-    arms, root = study.body.arms, clip.rotation_xyzw[:, :1]
+    clip, arms = study.clip, study.body.arms
     if not arms:
-        return clip
+        return poses
     through = [] if clip.cyclic else sorted(set(clip.stage_end_frames[1:3].tolist()))
-    pose, there = arm_poses(clip, arms), study.hands_m
-    path, shoulder = (
-        rotate(inverse(root), place_m - clip.translation_m[:, :1])
-        for place_m in (there, pose.shoulder_m)
-    )
-    offset = np.empty_like(path)
+    pose, there = arm_poses(clip.skeleton, poses, arms), study.hands_m
+    path = seen_from_root(clip, there)
+    root, root_m = clip.rotation_xyzw[:, None, :1], clip.translation_m[:, None, :1]
+    shoulder = rotate(inverse(root), pose.shoulder_m - root_m)
+    offset = np.empty_like(pose.hand_m)
     for i, arm in enumerate(arms):
         free = 1.0 - study.bearing[:, i]
-        held = Held(free, shoulder[:, i], arm.limb.reach_m, through)
-        offset[:, i] = redrawn(path[:, i], space, clip.rate_hz, held)
-    wanted = there + rotate(root, offset)
-    wanted[..., 1] = np.maximum(wanted[..., 1], np.minimum(there[..., 1], TOUCHING_M))
-    return with_hands_moved(clip, arms, pose, wanted - pose.hand_m)
+        held = Held(free, shoulder[:, :, i], arm.limb.reach_m, through)
+        offset[:, :, i] = redrawn(path[:, i], space, clip.rate_hz, held)
+    wanted = there[:, None] + rotate(root, offset)
+    lowest = np.minimum(there[..., 1], TOUCHING_M)[:, None]
+    wanted[..., 1] = np.maximum(wanted[..., 1], lowest)
+    return with_hands_moved(poses, arms, pose, wanted - pose.hand_m)

@@ -28,14 +28,25 @@ def normalized(vector: ArrayLike) -> FloatArray:
 def multiply(a_xyzw: ArrayLike, b_xyzw: ArrayLike) -> FloatArray:
     """Return the Hamilton product: first ``b``, then ``a``."""
     a, b = np.asarray(a_xyzw, dtype=np.float64), np.asarray(b_xyzw, dtype=np.float64)
-    ax, ay, az, aw = (a[..., i] for i in range(4))
-    bx, by, bz, bw = (b[..., i] for i in range(4))
-    # Component by component, since np.cross takes two to five times as long.
-    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    product[..., 0] = aw * bx + ax * bw + ay * bz - az * by
-    product[..., 1] = aw * by + ay * bw + az * bx - ax * bz
-    product[..., 2] = aw * bz + az * bw + ax * by - ay * bx
-    product[..., 3] = aw * bw - ax * bx - ay * by - az * bz
+    ax, ay, az, aw = a[..., 0], a[..., 1], a[..., 2], a[..., 3]
+    bx, by, bz, bw = b[..., 0], b[..., 1], b[..., 2], b[..., 3]
+    # Component by component, since np.cross takes two to five times as long; and each in place,
+    # since allocating sums takes as long as adding.
+    x, y, z, w = aw * bx, aw * by, aw * bz, aw * bw
+    x += ax * bw
+    x += ay * bz
+    x -= az * by
+    y += ay * bw
+    y += az * bx
+    y -= ax * bz
+    z += az * bw
+    z += ax * by
+    z -= ay * bx
+    w -= ax * bx
+    w -= ay * by
+    w -= az * bz
+    product = np.empty((*np.shape(w), 4))
+    product[..., 0], product[..., 1], product[..., 2], product[..., 3] = x, y, z, w
     return product
 
 
@@ -47,14 +58,28 @@ def inverse(q_xyzw: ArrayLike) -> FloatArray:
 def rotate(q_xyzw: ArrayLike, vector: ArrayLike) -> FloatArray:
     """Turn vectors ``(..., 3)`` by unit quaternions ``(..., 4)``."""
     q, v = np.asarray(q_xyzw, dtype=np.float64), np.asarray(vector, dtype=np.float64)
-    x, y, z, w = (q[..., i] for i in range(4))
-    vx, vy, vz = (v[..., i] for i in range(3))
+    x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    vx, vy, vz = v[..., 0], v[..., 1], v[..., 2]
     # v + 2 w (u × v) + 2 u × (u × v), u being (x, y, z); np.cross takes twice as long and more.
-    tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
-    turned = np.empty((*np.broadcast_shapes(q.shape[:-1], v.shape[:-1]), 3))
-    turned[..., 0] = vx + w * tx + y * tz - z * ty
-    turned[..., 1] = vy + w * ty + z * tx - x * tz
-    turned[..., 2] = vz + w * tz + x * ty - y * tx
+    tx, ty, tz = y * vz, z * vx, x * vy
+    tx -= z * vy
+    ty -= x * vz
+    tz -= y * vx
+    tx *= 2.0
+    ty *= 2.0
+    tz *= 2.0
+    rx, ry, rz = w * tx, w * ty, w * tz
+    rx += vx
+    rx += y * tz
+    rx -= z * ty
+    ry += vy
+    ry += z * tx
+    ry -= x * tz
+    rz += vz
+    rz += x * ty
+    rz -= y * tx
+    turned = np.empty((*np.shape(rx), 3))
+    turned[..., 0], turned[..., 1], turned[..., 2] = rx, ry, rz
     return turned
 
 

@@ -178,7 +178,7 @@ def _shared(time: BodyTime, first: int, end: int, lasting_s: float) -> FloatArra
         float(easy[~flies].sum()),
         float(least[~flies].sum()),
     )
-    if easy_s <= least_s_:
+    if easy_s - least_s_ < 1e-9:  # of rounding alone: one that comes to the same is no quicker
         share, most = 0.0, grounded_s / max(easy_s, 1e-9)
     else:
         share = min((easy_s - grounded_s) / (easy_s - least_s_), 1.0)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from smd.character.clip import Clip
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed
 
@@ -34,27 +33,31 @@ class BodyWork:
     down_m_s2: FloatArray
 
 
-def body_work(clip: Clip, centre_m: FloatArray, *, travels: bool) -> BodyWork:
-    """Return what a clip asks of the mass of a body.
+def body_works(
+    root_m: FloatArray, centre_m: FloatArray, rate_hz: float, *, travels: bool
+) -> list[BodyWork]:
+    """Return what clips of one length ask of the mass of a body.
 
     Parameters
     ----------
-    centre_m
-        ``(n, 3)`` its centre of mass, in the clip's own world.
+    root_m, centre_m
+        ``(n, e, 3)`` their ground roots and centres of mass, each in its own world.
     """
     if travels:
-        went_m = clip.translation_m[:, 0] - clip.translation_m[0, 0]
-        centre_m = centre_m - went_m * [1.0, 0.0, 1.0]
-    steady_m = gaussian_smoothed(centre_m, STEADIED_S * clip.rate_hz)
-    push = np.gradient(np.gradient(steady_m, axis=0), axis=0) * clip.rate_hz**2
-    aside = np.linalg.norm(push[:, [0, 2]], axis=-1)
-    around = [_around(value, clip.rate_hz) for value in (aside, push[:, 1], -push[:, 1])]
-    return BodyWork(centre_m, *around)
+        centre_m = centre_m - (root_m - root_m[:1]) * [1.0, 0.0, 1.0]
+    steady_m = gaussian_smoothed(centre_m, STEADIED_S * rate_hz)
+    push = np.gradient(np.gradient(steady_m, axis=0), axis=0) * rate_hz**2
+    aside, up = np.linalg.norm(push[..., [0, 2]], axis=-1), push[..., 1]
+    around = _around(np.stack([aside, up, -up], axis=1), rate_hz)
+    return [
+        BodyWork(centre_m[:, i], *(around[:, of, i] for of in range(3)))
+        for i in range(centre_m.shape[1])
+    ]
 
 
 def _around(value: FloatArray, rate_hz: float) -> FloatArray:
-    """Return the greatest value around each frame ``(n,)``, softly."""
+    """Return the greatest values around each frame ``(n, …)``, softly."""
     reach = int(np.ceil(AROUND_S * rate_hz))
-    padded = np.pad(value, reach, mode="edge")
-    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=-1)
-    return gaussian_smoothed(highest, 0.5 * reach)
+    padded = np.concatenate([value[:1].repeat(reach, 0), value, value[-1:].repeat(reach, 0)])
+    near = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis=0)
+    return gaussian_smoothed(near.max(axis=-1), 0.5 * reach)

@@ -31,7 +31,7 @@ from smd.transfer.in_place import (
 )
 from smd.transfer.pacing import Pacing, paced
 from smd.transfer.path import GroundPath
-from smd.transfer.repertoire import Piece, Repertoire, piece_of
+from smd.transfer.repertoire import Piece, Repertoire, pieces_of
 from smd.transfer.swings import Swing, at_own_tempo, with_periods
 from smd.transfer.timeline import Span
 from smd.transfer.travelling import along_path, leap
@@ -193,7 +193,9 @@ def _at_own_tempo(
     count, pacing = at_own_tempo(pacing, swing)
     if count != swing.periods:
         clip = with_periods(piece.clip, swing, count)
-        piece = piece_of(clip, travels=False, legs=pieces.legs, neutral=piece, mass=pieces.mass)
+        (piece,) = pieces_of(
+            [clip], travels=False, legs=pieces.legs, neutral=piece, mass=pieces.mass
+        )
         piece = replace(piece, swing=swing._replace(periods=count))
     return piece, pacing
 

@@ -43,9 +43,23 @@ class GroundRoot:
 
 def ground_root(clip: Clip) -> GroundRoot:
     """Return a clip's root motion."""
-    yaw = np.unwrap(heading_rad(clip.rotation_xyzw[:, 0]))
-    over_ground = clip.translation_m[:, 0, [0, 2]]
-    return GroundRoot(turned(over_ground - over_ground[0], -yaw[0]), yaw - yaw[0])
+    return ground_roots(clip.rotation_xyzw[:, :1], clip.translation_m[:, :1])[0]
+
+
+def ground_roots(rotation_xyzw: FloatArray, place_m: FloatArray) -> list[GroundRoot]:
+    """Return the root motion of clips of one length.
+
+    Parameters
+    ----------
+    rotation_xyzw, place_m
+        ``(n, e, 4)`` and ``(n, e, 3)`` their ground roots, each in its own world.
+    """
+    yaw = np.unwrap(heading_rad(rotation_xyzw), axis=0)
+    over_ground = place_m[..., [0, 2]]
+    position_m = turned(over_ground - over_ground[0], -yaw[0])
+    return [
+        GroundRoot(position_m[:, i], yaw[:, i] - yaw[0, i]) for i in range(rotation_xyzw.shape[1])
+    ]
 
 
 def turned(over_ground: FloatArray, angle_rad: FloatArray | float) -> FloatArray:

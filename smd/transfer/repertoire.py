@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,21 +13,21 @@ from laban.effort import EFFORT_STEPS
 from smd.acting.flight import airborne
 from smd.acting.legs import Leg, feet_of, legs_of, pelvis_of, yaw_of
 from smd.acting.move import Airborne, Footwork
-from smd.acting.standing import standing
+from smd.acting.standing import resting, standing
 from smd.cast import IDLE, ActionLibrary
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.mass import Mass
 from smd.character.poses import Poses, sampled, sampled_tracks
 from smd.character.tracks import Tracks
-from smd.expression.body import body_of
+from smd.expression.body import Body, body_of
 from smd.expression.expressive import expressive
-from smd.expression.study import Study, study_of
+from smd.expression.study import study_of
 from smd.geometry.arrays import BoolArray, FloatArray
 from smd.score import Phrase
-from smd.transfer.body_work import BodyWork, body_work
+from smd.transfer.body_work import BodyWork, body_works
 from smd.transfer.gait import Gait, fastest_m_s, gait_of
-from smd.transfer.ground_root import GroundRoot, ground_root
+from smd.transfer.ground_root import GroundRoot, ground_roots
 from smd.transfer.pacing import near_share
 from smd.transfer.swings import Swing, expressed, swing_of
 
@@ -153,12 +154,13 @@ def played_effort(effort: Effort, expressiveness: float) -> Effort:
     """Return the Effort that is played for one that was read, in steps, within its poles."""
 
     def stepped(axis: str, steps: int) -> float:
-        scaled = float(np.clip(expressiveness * (getattr(effort, axis) or 0.0), -1.0, 1.0))
-        return round(scaled * steps) / steps
+        scaled = expressiveness * (getattr(effort, axis) or 0.0)
+        return round(min(max(scaled, -1.0), 1.0) * steps) / steps
 
     return Effort(**{axis: stepped(axis, steps) for axis, steps in EFFORT_STEPS.items()})
 
 
+@lru_cache(maxsize=4096)
 def piece_name(action: str, effort: Effort, expressiveness: float) -> str:
     """Return what a piece is called: the action, and its Effort where it is not neutral."""
     played = played_effort(effort, expressiveness)
@@ -187,32 +189,51 @@ def repertoire(
     names = sorted({IDLE, *actions, *rests.values(), *leaving.values()})
     clips = [library.clip(name) for name in names]
     legs = legs_of(library.character.skeleton, sorted({f for clip in clips for f in feet_of(clip)}))
-    pieces = {
-        name: piece_of(clip, travels=library.action(name).travels, legs=legs, mass=mass)
-        for name, clip in zip(names, clips, strict=True)
-    }
-    return with_efforts(
-        Repertoire(pieces, legs, rests, leaving, expressiveness, mass=mass), phrases
-    )
+    asked, body = _asked(phrases, expressiveness), body_of(library.clip(IDLE))
+    pieces: dict[str, Piece] = {}
+    for name, clip in zip(names, clips, strict=True):
+        travels, efforts = library.action(name).travels, asked.get(name, {})
+        played = _played(clip, efforts, body, travels=travels)
+        made = pieces_of([clip, *played], travels=travels, legs=legs, mass=mass)
+        pieces.update(zip([name, *efforts], made, strict=True))
+    return Repertoire(pieces, legs, rests, leaving, expressiveness, mass=mass)
 
 
 def with_efforts(known: Repertoire, phrases: Iterable[Phrase]) -> Repertoire:
     """Return a repertoire in which some phrases have their Effort too."""
     pieces = dict(known.pieces)
     body = body_of(known.idle.clip)
-    studies: dict[str, Study] = {}
-    for phrase in phrases:
-        name = piece_name(phrase.action, phrase.effort, known.expressiveness)
-        if name not in pieces:
-            neutral = pieces[phrase.action]
-            if phrase.action not in studies:
-                studies[phrase.action] = study_of(neutral.clip, body)
-            effort = played_effort(phrase.effort, known.expressiveness)
-            clip = expressive(studies[phrase.action], effort, travels=neutral.travels)
-            pieces[name] = piece_of(
-                clip, travels=neutral.travels, legs=known.legs, neutral=neutral, mass=known.mass
+    for action, efforts in _asked(phrases, known.expressiveness).items():
+        new = {name: effort for name, effort in efforts.items() if name not in pieces}
+        if new:
+            neutral = pieces[action]
+            travels = neutral.travels
+            clips = _played(neutral.clip, new, body, travels=travels)
+            made = pieces_of(
+                clips, travels=travels, legs=known.legs, neutral=neutral, mass=known.mass
             )
+            pieces.update(zip(new, made, strict=True))
     return replace(known, pieces=pieces)
+
+
+def _asked(phrases: Iterable[Phrase], expressiveness: float) -> dict[str, dict[str, Effort]]:
+    """Return the Efforts that are played, by action and by what their pieces are called."""
+    asked: dict[str, dict[str, Effort]] = {}
+    for phrase in phrases:
+        name = piece_name(phrase.action, phrase.effort, expressiveness)
+        if name != phrase.action:  # not neutral
+            effort = played_effort(phrase.effort, expressiveness)
+            asked.setdefault(phrase.action, {})[name] = effort
+    return asked
+
+
+def _played(
+    clip: Clip, efforts: Mapping[str, Effort], body: Body, *, travels: bool
+) -> tuple[Clip, ...]:
+    """Return a clip as it is played with some Efforts."""
+    if not efforts:
+        return ()
+    return expressive(study_of(clip, body), list(efforts.values()), travels=travels)
 
 
 def with_faster(known: Repertoire, library: ActionLibrary) -> Repertoire:
@@ -287,60 +308,84 @@ def _leaving(library: ActionLibrary, rests: set[str]) -> dict[str, str]:
     return found
 
 
-def piece_of(
-    clip: Clip,
+def piece_of(clip: Clip, *, travels: bool, legs: Sequence[Leg], mass: Mass | None = None) -> Piece:
+    """Prepare one clip; parameters as in `pieces_of`."""
+    return pieces_of([clip], travels=travels, legs=legs, mass=mass)[0]
+
+
+def pieces_of(
+    clips: Sequence[Clip],
     *,
     travels: bool,
     legs: Sequence[Leg],
     neutral: Piece | None = None,
     mass: Mass | None = None,
-) -> Piece:
-    """Prepare one clip.
+) -> list[Piece]:
+    """Prepare a clip and its expressions together: as many frames, in which the same feet touch.
 
     Parameters
     ----------
+    clips
+        At least one.
     neutral
-        What the clip is an expression of: the same feet touch in both.
+        What they are expressions of; by default the first of them.
     mass
         Where the body's weight is, if what a clip asks of it is to be known.
     """
-    local = clip.rotation_xyzw, clip.translation_m
+    skeleton, rate_hz = clips[0].skeleton, clips[0].rate_hz
+    rotation = np.stack([clip.rotation_xyzw for clip in clips], axis=1)
+    translation = np.stack([clip.translation_m for clip in clips], axis=1)
     feet, weighing = [leg.foot for leg in legs], [] if mass is None else mass.joints.tolist()
-    holds_legs = pelvis_of(clip.skeleton, legs) or 0
-    world_q, place_m = joints_in_world(clip.skeleton, [*feet, holds_legs, *weighing], *local)
-    foot_q, foot_m = world_q[:, : len(feet)], place_m[:, : len(feet)]
-    touching = None if neutral is None else neutral.touching
-    stands = standing(clip, legs, touching, (foot_q, foot_m))
-    gait = gait_of(clip, stands) if travels and clip.cyclic else None
-    never = np.zeros(len(clip), dtype=bool)
-    columns = [stands.get(leg.foot, never) for leg in legs]
-    yaw = [yaw_of(leg, foot_q[:, i]) for i, leg in enumerate(legs)]
-    body = None
+    holds_legs = pelvis_of(skeleton, legs) or 0
+    joints = [*feet, holds_legs, *weighing]
+    world_q, place_m = joints_in_world(skeleton, joints, rotation, translation)
+    count = len(feet)
+    foot_q, pelvis_m = world_q[:, :, :count], place_m[:, :, count, 1]
+    rests = resting(legs, foot_q, place_m[:, :, :count], rate_hz)
+    yaw = np.empty(rests.shape)
+    for i, leg in enumerate(legs):
+        yaw[..., i] = yaw_of(leg, foot_q[:, :, i])
+    roots = ground_roots(rotation[:, :, 0], translation[:, :, 0])
+    bodies: Sequence[BodyWork | None] = [None] * len(clips)
     if mass is not None:
-        body = body_work(clip, mass.mean_m(place_m[:, len(feet) + 1 :]), travels=travels)
-    swing = None
-    if neutral is not None:
-        near = neutral.near
-        if neutral.swing is not None:
-            swing = expressed(neutral.swing, neutral.clip, clip)
-    else:
-        everywhere_m = forward_kinematics(clip.skeleton, *local)[1]
-        near = near_share(clip, everywhere_m)
-        if not (travels or clip.cyclic):
-            swing = swing_of(clip, everywhere_m)
-    return Piece(
-        clip=clip,
-        travels=travels,
-        root=ground_root(clip),
-        stands=np.reshape(columns, (-1, len(clip))).T.astype(bool),
-        yaw_rad=np.reshape(yaw, (-1, len(clip))).T,
-        touching=tuple(stands),
-        gait=gait,
-        near=near,
-        airborne=_airborne(clip, stands, place_m[:, len(feet), 1]),
-        body=body,
-        swing=swing,
-    )
+        centre_m = mass.mean_m(place_m[:, :, count + 1 :])
+        bodies = body_works(translation[:, :, 0], centre_m, rate_hz, travels=travels)
+    pieces: list[Piece] = []
+    for i, clip in enumerate(clips):
+        like = pieces[0] if neutral is None and pieces else neutral
+        stands = standing(clip, legs, None if like is None else like.touching, rests[:, i])
+        never = np.zeros(len(clip), dtype=bool)
+        columns = [stands.get(foot, never) for foot in feet]
+        near, swing = _returning(clip, travels=travels) if like is None else _as(like, clip)
+        pieces.append(
+            Piece(
+                clip=clip,
+                travels=travels,
+                root=roots[i],
+                stands=np.reshape(columns, (-1, len(clip))).T.astype(bool),
+                yaw_rad=yaw[:, i],
+                touching=tuple(stands),
+                gait=gait_of(clip, stands) if travels and clip.cyclic else None,
+                near=near,
+                airborne=_airborne(clip, stands, pelvis_m[:, i]),
+                body=bodies[i],
+                swing=swing,
+            )
+        )
+    return pieces
+
+
+def _returning(clip: Clip, *, travels: bool) -> tuple[float, Swing | None]:
+    """Return when a neutral clip is near to its last pose, and what it repeats."""
+    _, place_m = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
+    swing = None if travels or clip.cyclic else swing_of(clip, place_m)
+    return near_share(clip, place_m), swing
+
+
+def _as(neutral: Piece, clip: Clip) -> tuple[float, Swing | None]:
+    """Return the same of an expression of a clip."""
+    swing = None if neutral.swing is None else expressed(neutral.swing, neutral.clip, clip)
+    return neutral.near, swing
 
 
 def _airborne(clip: Clip, stands: Mapping[int, BoolArray], body_m: FloatArray) -> Airborne | None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -35,7 +36,7 @@ _MOST_STEPS = 4000
 _HALVINGS = 12
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Way:
     """A path by its length.
 
@@ -48,10 +49,21 @@ class Way:
     gone_m: FloatArray
     place_m: FloatArray
 
-    @property
+    @cached_property
     def length_m(self) -> float:
         """The length of the path as it is."""
         return float(way_of_places(self.place_m)[-1])
+
+    @property
+    def step_m(self) -> float:
+        """How far its places are apart."""
+        return max(self.length_m / (len(self.gone_m) - 1), 1e-9)
+
+    @cached_property
+    def bend_per_m(self) -> FloatArray:
+        """Its curvature ``(k,)`` at each place."""
+        ahead = np.gradient(self.place_m, axis=0) / self.step_m
+        return np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / self.step_m
 
     def at(self, gone_m: FloatArray) -> FloatArray:
         """Return the places ``(n, 2)`` after some lengths."""
@@ -174,11 +186,9 @@ def _soonest_s(way: Way, top_m_s: FloatArray | float, most_m_s2: float) -> Float
     .. [1] J. E. Bobrow, S. Dubowsky, J. S. Gibson, "Time-optimal control of robotic manipulators
        along specified paths", International Journal of Robotics Research 4, 1985.
     """
-    step_m = max(way.length_m / (len(way.gone_m) - 1), 1e-9)
-    ahead = np.gradient(way.place_m, axis=0) / step_m
-    bend = np.linalg.norm(np.gradient(ahead, axis=0), axis=-1) / step_m
-    part = most_m_s2 * np.sqrt(0.5)  # of the limit, along and across
-    square = np.minimum(part / np.maximum(bend, 1e-6), np.minimum(top_m_s, 100.0) ** 2)
+    part, step_m = most_m_s2 * np.sqrt(0.5), way.step_m  # of the limit, along and across
+    corners = part / np.maximum(way.bend_per_m, 1e-6)
+    square = np.minimum(corners, np.minimum(top_m_s, 100.0) ** 2)
     square[[0, -1]] = 0.0
     rise = 2.0 * part * step_m * np.arange(len(square))
     square = np.minimum.accumulate(square - rise) + rise

@@ -52,12 +52,26 @@ def studied(name: str) -> Study:
 
 
 def played(name: str, effort: Effort) -> Clip:
-    return expressive(studied(name), effort, travels=LIBRARY.action(name).travels)
+    return expressive(studied(name), [effort], travels=LIBRARY.action(name).travels)[0]
 
 
 @functools.cache
-def along(name: str, axis: str) -> list[Clip]:
+def along(name: str, axis: str) -> tuple[Clip, ...]:
     return played_along(studied(name), axis, NINE, travels=LIBRARY.action(name).travels)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_states_made_together_are_those_made_one_by_one(name):
+    """Whatever else is in the stack: no state knows of another."""
+    states = [*POLES, Effort(), *CORNERS[::3], Effort(0.5, -0.2), Effort(space=0.3, flow=-0.4)]
+    together = expressive(studied(name), states, travels=LIBRARY.action(name).travels)
+    for clip, effort in zip(together, states, strict=True):
+        alone = played(name, effort)
+        for array in ("rotation_xyzw", "translation_m"):
+            made, expected = getattr(clip, array), getattr(alone, array)
+            np.testing.assert_allclose(made, expected, rtol=0.0, atol=1e-12)
+        np.testing.assert_array_equal(clip.stage_end_frames, alone.stage_end_frames)
+        np.testing.assert_array_equal(clip.contacts, alone.contacts)
 
 
 @pytest.mark.parametrize("name", ONCE)
@@ -111,7 +125,8 @@ def test_actions_with_an_aim_are_found_by_what_their_clips_do():
 @functools.cache
 def in_many_states(name: str) -> tuple[float, float]:
     """How far an action is from its aim at most, and the least bend of an elbow or knee."""
-    clips = [played(name, effort) for effort in (*POLES, *CORNERS)]
+    efforts = [*POLES, *CORNERS]
+    clips = expressive(studied(name), efforts, travels=LIBRARY.action(name).travels)
     return (
         max(off_aim_m(studied(name), clip) for clip in clips),
         min(float(bends_rad(clip).min()) for clip in clips),

@@ -17,11 +17,12 @@ from actions_library.folder import load_library
 from laban import Effort
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
+from smd.character.poses import Poses
 from smd.character.quality import fastest_turn_rad_s
 from smd.expression.attack import with_attack
 from smd.expression.body import body_of
 from smd.expression.expressive import expressive, with_flow, with_shape, with_size, with_space
-from smd.expression.operators import rescaled, reshaped, retimed
+from smd.expression.operators import played_clip, rescaled, reshaped, retimed, stack_of
 from smd.expression.springs import damped, sprung
 from smd.expression.study import Study, poses_at, study_of
 from smd.expression.timing import shown_frames
@@ -37,24 +38,37 @@ def with_effort(**of_amount: float) -> Operator:
 
     def operator(study: Study, amount: float) -> Clip:
         effort = Effort(**{axis: share * amount for axis, share in of_amount.items()})
-        return expressive(study, effort, travels=LIBRARY.action(study.clip.name).travels)
+        travels = LIBRARY.action(study.clip.name).travels
+        return expressive(study, [effort], travels=travels)[0]
 
     return operator
 
 
-def everywhere(study: Study, value: float) -> np.ndarray:
-    return np.full(len(study.clip), value)
+def alone(operator: Callable[[Poses, np.ndarray, Study], Poses]) -> Operator:
+    """An operator of stacks, with a stack of one state, and one amount."""
+
+    def on_one(study: Study, amount: float) -> Clip:
+        poses = operator(stack_of(study.clip, 1), np.array([amount]), study)
+        still = np.arange(float(len(study.clip)))
+        return played_clip(study.clip, Poses(*(part[:, 0] for part in poses)), still)
+
+    return on_one
+
+
+def everywhere(study: Study, value: np.ndarray) -> np.ndarray:
+    return np.tile(value, (len(study.clip), 1))
 
 
 def stages_retimed(study: Study, amount: float) -> Clip:
     lasting = [1.0, 2.0**amount, 3.0**-amount, 1.0, 1.0]
     frames = np.diff(study.clip.stage_end_frames, prepend=0)
-    return retimed(study.clip, shown_frames(np.repeat(lasting, frames), study.aim.frame))
+    frame = shown_frames(np.repeat(lasting, frames), study.aim.frame)
+    return played_clip(study.clip, retimed(study.clip, frame), frame)
 
 
-def about_the_first(study: Study, amount: float) -> Clip:
-    factor = everywhere(study, 1.0 + 0.3 * amount)
-    return rescaled(study.clip, BODY.upper, factor, poses_at(study.clip, np.array([0])))
+def about_the_first(poses: Poses, amount: np.ndarray, study: Study) -> Poses:
+    factor = everywhere(study, 1.0 + 0.3 * amount)[..., None]
+    return rescaled(poses, BODY.upper, factor, stack_of(poses_at(study.clip, np.array([0])), 1))
 
 
 RETIMING: dict[str, Operator] = {
@@ -70,20 +84,22 @@ RETIMING: dict[str, Operator] = {
 
 RESHAPING: dict[str, Operator] = {
     "Space": with_effort(space=1.0),
-    "Weight's size": lambda s, a: with_size(
-        s.clip, 0.0, a, s, gait=s.clip.cyclic and LIBRARY.action(s.clip.name).travels
+    "Weight's size": alone(
+        lambda p, a, s: with_size(
+            p, 0.0 * a, a, s, gait=s.clip.cyclic and LIBRARY.action(s.clip.name).travels
+        )
     ),
-    "Weight's back": lambda s, a: with_shape(s.clip, a, s),
-    "Space's hands and gaze": with_space,
-    "Flow's springs": lambda s, a: with_flow(s.clip, a, BODY, s.swings),
-    "a small beginning": lambda s, a: with_size(s.clip, abs(a), 0.0, s, gait=False),
-    "attack": lambda s, a: with_attack(s.clip, a, BODY) if s.clip.cyclic else s.clip,
-    "rescaled": about_the_first,
-    "reshaped": lambda s, a: reshaped(
-        s.clip, {BODY.spine[0]: everywhere(s, 0.2 * a)}, BODY.rest_xyzw
+    "Weight's back": alone(with_shape),
+    "Space's hands and gaze": alone(lambda p, a, s: with_space(s, a)),
+    "Flow's springs": alone(lambda p, a, s: with_flow(p, a, s, s.swings[:, None])),
+    "a small beginning": alone(lambda p, a, s: with_size(p, np.abs(a), 0.0 * a, s, gait=False)),
+    "attack": alone(lambda p, a, s: with_attack(p, a, s.clip, BODY) if s.clip.cyclic else p),
+    "rescaled": alone(about_the_first),
+    "reshaped": alone(
+        lambda p, a, s: reshaped(p, {BODY.spine[0]: everywhere(s, 0.2 * a)}, BODY.rest_xyzw)
     ),
-    "sprung": lambda s, a: sprung(s.clip, BODY.upper, BODY, everywhere(s, abs(a))),
-    "damped": lambda s, a: damped(s.clip, BODY.upper, everywhere(s, abs(a))),
+    "sprung": alone(lambda p, a, s: sprung(p, s.clip, BODY.upper, BODY, everywhere(s, np.abs(a)))),
+    "damped": alone(lambda p, a, s: damped(p, s.clip, BODY.upper, everywhere(s, np.abs(a)))),
 }
 """Operators that change poses where they are."""
 

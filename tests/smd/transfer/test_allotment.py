@@ -150,9 +150,8 @@ def test_no_strike_is_moved_by_more_than_two_tenths_of_a_second(take):
             assert abs(share.strike_s - wish.strike_s) < 0.21
 
 
-@given(takes())
-def test_time_reversed_wishes_get_time_reversed_shares(take):
-    wishes, end_s = take
+def apart_from_reversed_s(wishes, end_s):
+    """How far shares are at most from those of the wishes played backwards."""
     forth = [replace(w, return_s=0.0) for w in wishes]
     back = [
         Wish(end_s - w.end_s, end_s - w.start_s, w.before_s)
@@ -165,7 +164,31 @@ def test_time_reversed_wishes_get_time_reversed_shares(take):
     found = [moments_of(share) for share in allotted(forth, 0.0, end_s)]
     mirrored = [moments_of(share) for share in allotted(back[::-1], 0.0, end_s)][::-1]
     expected = np.concatenate([end_s - np.array(moments)[::-1] for moments in mirrored])
-    assert np.concatenate(found) == pytest.approx(expected, abs=FIRM_S)
+    return np.abs(np.concatenate(found) - expected).max()
+
+
+@given(takes())
+def test_time_reversed_wishes_get_time_reversed_shares(take):
+    assert apart_from_reversed_s(*take) < FIRM_S
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_in_a_long_take_the_least_sum_is_found_and_not_only_neared(seed):
+    """From either end, the same."""
+    rng = np.random.default_rng(seed)
+    now_s, wishes = 0.0, []
+    for _ in range(75):
+        now_s += rng.uniform(0.0, 1.2)
+        lasting_s, more = rng.uniform(0.8, 3.0), rng.uniform(0.5, 2.5)
+        whole = Wish(now_s, now_s + lasting_s, more * lasting_s)
+        strikes = {
+            "before_s": 0.6 * whole.before_s,
+            "after_s": 0.4 * whole.before_s,
+            "strike_s": now_s + 0.6 * lasting_s,
+        }
+        wishes.append(replace(whole, **strikes) if rng.random() < 0.6 else whole)
+        now_s += lasting_s
+    assert apart_from_reversed_s(wishes, now_s + 1.0) < 1e-5
 
 
 @given(takes(), st.floats(-50.0, 500.0))

@@ -126,3 +126,18 @@ def test_a_clip_that_strikes_with_its_first_frame_is_acted(monkeypatch, tmp_path
     (actor,) = smd.animate(score, Recording((doodle,)), library).actors
     assert np.isfinite(actor.poses.translation_m).all()
     assert np.isfinite(actor.poses.rotation_xyzw).all()
+
+
+def test_rounding_does_not_decide_how_a_phrase_without_time_is_shared_out():
+    """Where least and comfortable times come to the same, a hair more or less changes nothing."""
+    easy_s, least_s = np.array([0.1, 0.3, 0.2]), np.array([0.3, 0.2, 0.1])
+    none = np.zeros(3, dtype=bool)
+    hair_s = 1e-15
+    pacings = [
+        body_pacing(
+            BodyTime(easy_s, least_s + more, none, none, 0.0, struck=3, core=3, needed=3.0),
+            *(0.0, 0.4, 0.4, 0.0),
+        )
+        for more in (-hair_s, hair_s)
+    ]
+    np.testing.assert_allclose(pacings[0].time_s, pacings[1].time_s, atol=1e-9)
