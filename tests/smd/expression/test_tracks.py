@@ -25,8 +25,8 @@ def test_tracks_go_through_the_timing_of_their_clip(name, effort):
     clip, travels = LIBRARY.clip(name), LIBRARY.action(name).travels
     count = np.arange(len(clip), dtype=float)
     counting = replace(clip, tracks=Tracks(("frame",), count[:, None]))
-    played = expressive(study_of(counting, BODY), effort, travels=travels)
-    without = expressive(study_of(clip, BODY), effort, travels=travels)
+    (played,) = expressive(study_of(counting, BODY), [effort], travels=travels)
+    (without,) = expressive(study_of(clip, BODY), [effort], travels=travels)
     np.testing.assert_allclose(played.rotation_xyzw, without.rotation_xyzw, atol=1e-9)
     (shown,) = played.tracks.value.T
     assert shown[[0, -1]] == pytest.approx([0.0, len(clip) - 1.0])
