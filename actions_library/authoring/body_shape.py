@@ -80,20 +80,16 @@ def body_fields(step_m: float) -> BodyFields:
     foot.keep(HalfSpace((0.0, SOLE_M, 0.0), DOWN), 0.006)
     leg = united(LEG_BOX, step_m, _leg())
     leg.merge(foot, 0.035)
-    head = united(TRUNK_BOX, step_m, _head())
-    for shape, reach_m in _eye_sockets():
-        head.carve(shape, reach_m)
-    for shape, reach_m in _face():
-        head.add(shape, reach_m)
-    trunk = united(TRUNK_BOX, step_m, _trunk())
-    trunk.merge(head, 0.030)
+    head = with_features(united(TRUNK_BOX, step_m, skull()))
+    upright = united(TRUNK_BOX, step_m, trunk())
+    upright.merge(head, 0.030)
     whole = Field(BODY_BOX, step_m)
-    whole.merge(trunk, 0.0)
+    whole.merge(upright, 0.0)
     whole.merge(leg, 0.045)
     whole.merge(arm, 0.045)
     skin = whole.grown(0.0)
     skin.shrink(_tuck)
-    return BodyFields(whole, skin, trunk, head, arm, leg)
+    return BodyFields(whole, skin, upright, head, arm, leg)
 
 
 def _tuck(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
@@ -117,7 +113,7 @@ def as_point(p: FloatArray) -> Point:
     return (float(p[0]), float(p[1]), float(p[2]))
 
 
-def _trunk() -> Parts:
+def trunk() -> Parts:
     """Return pelvis, waist, chest, the shoulders' slope and the neck."""
     # height, front, back, outer, inner, the centre's shift to the front and outwards
     rows = [
@@ -150,7 +146,7 @@ def _trunk() -> Parts:
     ]
 
 
-def _head() -> Parts:
+def skull() -> Parts:
     """Return the skull and the face from the brow to the chin."""
     # way down from the brow, front, back, outer, inner, the centre's shift to the front
     face = [
@@ -167,20 +163,27 @@ def _head() -> Parts:
     ]
 
 
+def with_features(head: Field) -> Field:
+    """Return a skull with sockets, brow, nose, cheeks and ears added to it."""
+    for shape, reach_m in _eye_sockets():
+        head.carve(shape, reach_m)
+    for shape, reach_m in _face():
+        head.add(shape, reach_m)
+    return head
+
+
 def _eye_sockets() -> Parts:
     """Return what is taken from the skull for the eyes."""
     return [(Ellipsoid((0.034, 1.624, 0.106), (0.026, 0.017, 0.022)), 0.024)]
 
 
 def _face() -> Parts:
-    """Return brow, nose, cheek, lips and ear."""
+    """Return brow, nose, nostril and ear."""
     ear = matrix_from_quaternion(quaternion_from_euler("XYZ", [-0.22, -0.42, 0.10]))
     return [
         (RoundCone((0.014, 1.650, 0.086), (0.050, 1.652, 0.070), 0.009, 0.007), 0.024),
         (RoundCone((0.0, 1.634, 0.088), (0.0, 1.597, 0.105), 0.008, 0.0105), 0.018),
         (RoundCone((0.008, 1.594, 0.098), (0.0085, 1.594, 0.098), 0.008, 0.008), 0.012),
-        (RoundCone((0.0, 1.569, 0.0865), (0.014, 1.570, 0.082), 0.0065, 0.005), 0.012),
-        (RoundCone((0.0, 1.560, 0.0850), (0.012, 1.561, 0.081), 0.0065, 0.005), 0.010),
         (Ellipsoid((0.081, 1.612, -0.008), (0.008, 0.032, 0.019), ear), 0.010),
     ]
 

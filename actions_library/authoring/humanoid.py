@@ -23,6 +23,7 @@ _CENTRE: list[tuple[str, str, tuple[float, float, float], Role]] = [
     ("head", "neck", (0.0, 1.545, 0.015), "spine"),
 ]
 _LEFT: list[tuple[str, str, tuple[float, float, float], Role]] = [
+    ("eye", "head", (0.033, 1.624, 0.0715), "end_effector"),
     ("shoulder", "upper_chest", (0.030, 1.410, 0.005), "intermediate"),
     ("upper_arm", "shoulder", (0.175, 1.405, -0.010), "intermediate"),
     ("lower_arm", "upper_arm", (0.375, 1.205, -0.020), "intermediate"),
