@@ -10,7 +10,7 @@ import numpy as np
 
 from actions_library.authoring import face_parts
 from actions_library.authoring.body_field import Field, RoundCone
-from actions_library.authoring.body_shape import DOWN_45, WRIST, BodyFields, body_fields
+from actions_library.authoring.body_shape import BodyFields, body_fields
 from actions_library.authoring.body_surface import half_surface, mirrored
 from actions_library.authoring.body_wardrobe import HAIR_RGB, Color, Garment, wardrobe
 from actions_library.authoring.body_weights import (
@@ -25,6 +25,7 @@ from actions_library.authoring.face_motion import (
     resting,
 )
 from actions_library.authoring.face_shape import MOUTH_M, NECK_CUT, head_field
+from actions_library.authoring.hand_shape import DOWN_45, WRIST
 from actions_library.authoring.humanoid import humanoid_skeleton
 from smd.character.character import Character, Mesh
 from smd.character.skeleton import Skeleton
@@ -33,7 +34,7 @@ from smd.geometry.arrays import FloatArray, IntArray
 STEP_M = 0.003
 """Distance between nodes of the grid that the shape is sampled on."""
 
-BODY_TRIANGLES, HEAD_TRIANGLES = 11_000, 10_000
+BODY_TRIANGLES, HEAD_TRIANGLES = 13_000, 10_000
 """About how many triangles the body has, and the head with its neck."""
 
 SKIN_RGB: Color = (0.66, 0.40, 0.27)

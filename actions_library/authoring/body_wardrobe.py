@@ -20,7 +20,6 @@ from actions_library.authoring.body_field import (
 from actions_library.authoring.body_shape import (
     ANKLE,
     DOWN,
-    DOWN_45,
     FORWARD,
     HIP,
     KNEE,
@@ -30,6 +29,7 @@ from actions_library.authoring.body_shape import (
     as_point,
     between,
 )
+from actions_library.authoring.hand_shape import DOWN_45
 
 SOLE_STEP_M = 0.002
 """What is thin has a finer grid of its own."""

@@ -332,3 +332,10 @@ _LEFT: dict[str, Motion] = {
     "mouthLowerDown": _lower_down,
     "noseSneer": _nose_sneer,
 }
+
+SHAPE_NAMES = (
+    *_MIDDLE,
+    *_BOTH,
+    *(f"{name}{side}" for name in _LEFT for side in ("Left", "Right")),
+)
+"""All shapes of the face, in their order."""

@@ -8,12 +8,28 @@ from __future__ import annotations
 
 import numpy as np
 
+from actions_library.authoring.hand_shape import left_fingers
 from smd.character.skeleton import Role, Skeleton
 
 HEIGHT_M = 1.75
 
+_Row = tuple[str, str, tuple[float, float, float], Role]
+
+
+def _finger_rows() -> list[_Row]:
+    """Return the fingers' joints, each finger's from the hand to the tip."""
+    rows: list[_Row] = []
+    for finger in left_fingers():
+        for k, (joint, parent) in enumerate(
+            zip(finger.joints, ("hand", *finger.joints), strict=False)
+        ):
+            x, y, z = finger.places[k].tolist()
+            rows.append((joint, parent, (x, y, z), "end_effector" if k == 2 else "intermediate"))
+    return rows
+
+
 # (joint, parent, x, y, z in the world at rest, role); the left side, mirrored below.
-_CENTRE: list[tuple[str, str, tuple[float, float, float], Role]] = [
+_CENTRE: list[_Row] = [
     ("root", "", (0.0, 0.0, 0.0), "root"),
     ("hips", "root", (0.0, 0.955, 0.0), "root"),
     ("spine", "hips", (0.0, 1.045, -0.005), "spine"),
@@ -22,14 +38,13 @@ _CENTRE: list[tuple[str, str, tuple[float, float, float], Role]] = [
     ("neck", "upper_chest", (0.0, 1.455, -0.005), "spine"),
     ("head", "neck", (0.0, 1.545, 0.015), "spine"),
 ]
-_LEFT: list[tuple[str, str, tuple[float, float, float], Role]] = [
+_LEFT: list[_Row] = [
     ("eye", "head", (0.033, 1.624, 0.0715), "end_effector"),
     ("shoulder", "upper_chest", (0.030, 1.410, 0.005), "intermediate"),
     ("upper_arm", "shoulder", (0.175, 1.405, -0.010), "intermediate"),
     ("lower_arm", "upper_arm", (0.375, 1.205, -0.020), "intermediate"),
     ("hand", "lower_arm", (0.553, 1.027, 0.000), "intermediate"),
-    ("thumb", "hand", (0.575, 1.000, 0.035), "end_effector"),
-    ("fingers", "hand", (0.615, 0.965, 0.008), "end_effector"),
+    *_finger_rows(),
     ("upper_leg", "hips", (0.092, 0.905, 0.000), "intermediate"),
     ("lower_leg", "upper_leg", (0.094, 0.492, 0.008), "intermediate"),
     ("foot", "lower_leg", (0.096, 0.085, -0.020), "intermediate"),
@@ -38,7 +53,7 @@ _LEFT: list[tuple[str, str, tuple[float, float, float], Role]] = [
 
 
 def humanoid_skeleton() -> Skeleton:
-    """Return the skeleton: 27 joints, all rest rotations identity."""
+    """Return the skeleton: 55 joints, all rest rotations identity."""
     rows = list(_CENTRE)
     for side, sign in (("left", 1.0), ("right", -1.0)):
         for name, parent, (x, y, z), role in _LEFT:

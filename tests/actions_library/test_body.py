@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from actions_library.authoring.body import BODY_TRIANGLES, humanoid_character
+from actions_library.authoring.hand_shape import left_fingers
 from actions_library.authoring.humanoid import HEIGHT_M, humanoid_skeleton
 from actions_library.folder import load_library
 from smd.character.character import Character, Mesh
@@ -137,8 +138,8 @@ def test_the_figure_is_as_tall_as_its_skeleton_says(figure, head):
     assert head.points_m[:, 1].max() == pytest.approx(HEIGHT_M, abs=0.015)
 
 
-def test_the_volume_is_a_persons_and_the_normals_point_outwards(figure, body):
-    assert 0.05 < volume_m3(body) < 0.09
+def test_the_volume_is_a_persons_and_the_normals_point_outwards(figure, body, head):
+    assert 0.05 < volume_m3(body) + volume_m3(head) < 0.09
     assert all(volume_m3(mesh) > 0 for mesh in figure.meshes)
 
 
@@ -190,13 +191,27 @@ def test_a_leg_moves_nothing_of_the_other(figure, side):
 
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_an_arm_moves_the_torso_at_the_armpit_only(figure, side):
-    arm = [f"{side}_{part}" for part in ("upper_arm", "lower_arm", "hand", "thumb", "fingers")]
+    fingers = [joint for finger in left_fingers() for joint in finger.joints]
+    arm = [f"{side}_{part}" for part in ("upper_arm", "lower_arm", "hand", *fingers)]
     sign = 1.0 if side == "left" else -1.0
     for name in ("body", "shirt", "trousers"):
         mesh = named(figure, name)
         x, y, _ = mesh.points_m.T
         torso = (sign * x < 0.22) & (y < 1.20)
         assert weights(figure, mesh, *arm)[torso | (sign * x < 0.0)].max() < 1e-6
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_each_finger_moves_its_own_flesh_alone(shipped, side):
+    body = named(shipped, "body")
+    out = 1.0 if side == "left" else -1.0
+    for finger in left_fingers():
+        tip = finger.places[3] * [out, 1.0, 1.0]
+        at_tip = np.linalg.norm(body.points_m - tip, axis=1) < 0.011
+        joints = [f"{side}_{joint}" for joint in finger.joints]
+        assert at_tip.sum() > 5
+        assert weights(shipped, body, *joints)[at_tip].min() > 0.97, finger.name
+        assert weights(shipped, body, joints[2])[at_tip].mean() > 0.9, finger.name
 
 
 def test_a_hand_by_the_thigh_does_not_pull_it(figure, body):
