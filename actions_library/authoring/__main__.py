@@ -1,4 +1,4 @@
-"""Write the shipped library: ``python -m actions_library.authoring FOLDER``."""
+"""Write a shipped library: ``python -m actions_library.authoring FOLDER [faces]``."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
+from actions_library.authoring.clips.face_actions import FACE_ACTIONS, face_clips
 from actions_library.authoring.examples import with_examples
 from actions_library.folder import write_library
 from actions_library.library import Credit, Library
@@ -30,13 +31,29 @@ def write_humanoid(folder: Path) -> Library:
     )
 
 
+def write_faces(folder: Path) -> Library:
+    """Make the humanoid and the clips of its face, and write them as a library."""
+    character = humanoid_character()
+    clips = {clip.name: clip for clip in face_clips(character.skeleton)}
+    ours = Credit("Spatial Motion Doodles", "MIT")
+    return write_library(
+        folder,
+        name="faces",
+        character=character,
+        clips=clips,
+        actions=FACE_ACTIONS,
+        credits=dict.fromkeys(clips, ours),
+    )
+
+
 def main(arguments: list[str]) -> int:
     """Write the library into the folder named, and say what was made."""
-    if len(arguments) != 1:
-        print("usage: python -m actions_library.authoring FOLDER", file=sys.stderr)
+    if len(arguments) not in (1, 2) or arguments[1:] not in ([], ["faces"]):
+        print("usage: python -m actions_library.authoring FOLDER [faces]", file=sys.stderr)
         return 2
+    write = write_faces if arguments[1:] else write_humanoid
     try:
-        library = write_humanoid(Path(arguments[0]))
+        library = write(Path(arguments[0]))
     except SmdError as error:
         print(error, file=sys.stderr)
         return 3
