@@ -69,7 +69,7 @@ CMU_JOINTS = {
             "upper_arm": "Arm",
             "lower_arm": "ForeArm",
             "hand": "Hand",
-            "fingers": "FingerBase",
+            "middle_proximal": "FingerBase",
             "upper_leg": "UpLeg",
             "lower_leg": "Leg",
             "foot": "Foot",

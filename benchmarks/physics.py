@@ -88,7 +88,7 @@ def anatomy_of(skeleton: Skeleton) -> Anatomy | None:
     neck = plan.spine[plan.spine.index(plan.chest) + 1]
     joint = {"hips": plan.pelvis, "upper_chest": plan.chest, "neck": neck, "head": plan.head}
     for (kind, side), limb in limbs.items():
-        ends = ("foot", "toes") if kind == "leg" else ("hand", "fingers")
+        ends = ("foot", "toes") if kind == "leg" else ("hand", "middle_proximal")
         names = (f"upper_{kind}", f"lower_{kind}", *ends)
         joints = (limb.upper, limb.middle, limb.end, _beyond(limb))
         joint.update((f"{side}_{name}", j) for name, j in zip(names, joints, strict=True))

@@ -9,6 +9,7 @@ from pathlib import Path
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
+from actions_library.authoring.clips.face_actions import FACE_ACTIONS, face_clips
 from actions_library.authoring.dog.library import write_dog
 from actions_library.authoring.examples import with_examples
 from actions_library.folder import write_library
@@ -32,8 +33,24 @@ def write_humanoid(folder: Path) -> Library:
     )
 
 
+def write_faces(folder: Path) -> Library:
+    """Make the humanoid and the clips of its face, and write them as a library."""
+    character = humanoid_character()
+    clips = {clip.name: clip for clip in face_clips(character.skeleton)}
+    ours = Credit("Spatial Motion Doodles", "MIT")
+    return write_library(
+        folder,
+        name="faces",
+        character=character,
+        clips=clips,
+        actions=FACE_ACTIONS,
+        credits=dict.fromkeys(clips, ours),
+    )
+
+
 CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
     "humanoid": write_humanoid,
+    "faces": write_faces,
     "dog": write_dog,
 }
 """What writes each character's library."""

@@ -21,6 +21,7 @@ from actions_library.authoring.body_field import (
     Shape,
     united,
 )
+from actions_library.authoring.hand_shape import DOWN_45, WRIST, Finger, left_fingers
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import matrix_from_quaternion, quaternion_from_euler
 
@@ -33,13 +34,12 @@ ARM_BOX = ((0.03, 0.70, -0.16), (0.76, 1.56, 0.16))
 LEG_BOX = ((0.0, -0.03, -0.20), (0.27, 1.08, 0.24))
 """What the grids span; each leaves room for its part and the blends around it."""
 
-DOWN_45: Point = (2**-0.5, -(2**-0.5), 0.0)
 FORWARD: Point = (0.0, 0.0, 1.0)
 UP: Point = (0.0, 1.0, 0.0)
 DOWN: Point = (0.0, -1.0, 0.0)
 
 # Where the left side's joints stand in the bind pose (authoring.humanoid).
-SHOULDER, ELBOW, WRIST = (0.175, 1.405, -0.010), (0.375, 1.205, -0.020), (0.553, 1.027, 0.000)
+SHOULDER, ELBOW = (0.175, 1.405, -0.010), (0.375, 1.205, -0.020)
 HIP, KNEE, ANKLE = (0.092, 0.905, 0.000), (0.094, 0.492, 0.008), (0.096, 0.085, -0.020)
 
 SOLE_M = 0.0015
@@ -80,20 +80,16 @@ def body_fields(step_m: float) -> BodyFields:
     foot.keep(HalfSpace((0.0, SOLE_M, 0.0), DOWN), 0.006)
     leg = united(LEG_BOX, step_m, _leg())
     leg.merge(foot, 0.035)
-    head = united(TRUNK_BOX, step_m, _head())
-    for shape, reach_m in _eye_sockets():
-        head.carve(shape, reach_m)
-    for shape, reach_m in _face():
-        head.add(shape, reach_m)
-    trunk = united(TRUNK_BOX, step_m, _trunk())
-    trunk.merge(head, 0.030)
+    head = with_features(united(TRUNK_BOX, step_m, skull()))
+    upright = united(TRUNK_BOX, step_m, trunk())
+    upright.merge(head, 0.030)
     whole = Field(BODY_BOX, step_m)
-    whole.merge(trunk, 0.0)
+    whole.merge(upright, 0.0)
     whole.merge(leg, 0.045)
     whole.merge(arm, 0.045)
     skin = whole.grown(0.0)
     skin.shrink(_tuck)
-    return BodyFields(whole, skin, trunk, head, arm, leg)
+    return BodyFields(whole, skin, upright, head, arm, leg)
 
 
 def _tuck(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
@@ -117,7 +113,7 @@ def as_point(p: FloatArray) -> Point:
     return (float(p[0]), float(p[1]), float(p[2]))
 
 
-def _trunk() -> Parts:
+def trunk() -> Parts:
     """Return pelvis, waist, chest, the shoulders' slope and the neck."""
     # height, front, back, outer, inner, the centre's shift to the front and outwards
     rows = [
@@ -150,7 +146,7 @@ def _trunk() -> Parts:
     ]
 
 
-def _head() -> Parts:
+def skull() -> Parts:
     """Return the skull and the face from the brow to the chin."""
     # way down from the brow, front, back, outer, inner, the centre's shift to the front
     face = [
@@ -167,20 +163,27 @@ def _head() -> Parts:
     ]
 
 
+def with_features(head: Field) -> Field:
+    """Return a skull with sockets, brow, nose, cheeks and ears added to it."""
+    for shape, reach_m in _eye_sockets():
+        head.carve(shape, reach_m)
+    for shape, reach_m in _face():
+        head.add(shape, reach_m)
+    return head
+
+
 def _eye_sockets() -> Parts:
     """Return what is taken from the skull for the eyes."""
     return [(Ellipsoid((0.034, 1.624, 0.106), (0.026, 0.017, 0.022)), 0.024)]
 
 
 def _face() -> Parts:
-    """Return brow, nose, cheek, lips and ear."""
+    """Return brow, nose, nostril and ear."""
     ear = matrix_from_quaternion(quaternion_from_euler("XYZ", [-0.22, -0.42, 0.10]))
     return [
         (RoundCone((0.014, 1.650, 0.086), (0.050, 1.652, 0.070), 0.009, 0.007), 0.024),
         (RoundCone((0.0, 1.634, 0.088), (0.0, 1.597, 0.105), 0.008, 0.0105), 0.018),
         (RoundCone((0.008, 1.594, 0.098), (0.0085, 1.594, 0.098), 0.008, 0.008), 0.012),
-        (RoundCone((0.0, 1.569, 0.0865), (0.014, 1.570, 0.082), 0.0065, 0.005), 0.012),
-        (RoundCone((0.0, 1.560, 0.0850), (0.012, 1.561, 0.081), 0.0065, 0.005), 0.010),
         (Ellipsoid((0.081, 1.612, -0.008), (0.008, 0.032, 0.019), ear), 0.010),
     ]
 
@@ -211,40 +214,6 @@ def _arm() -> Parts:
     ]
 
 
-def _hand_point(along: float, front: float, outer: float) -> Point:
-    """Return a point of the left hand: from the wrist, to the thumb's side, to the back."""
-    back_of_hand = (-DOWN_45[1], DOWN_45[0], 0.0)
-    way = np.array([DOWN_45, FORWARD, back_of_hand])
-    return as_point(np.array(WRIST) + np.array([along, front, outer]) @ way)
-
-
-def _thumb() -> list[RoundCone]:
-    """Return the thumb's bones from its root to its tip."""
-    places = [(0.018, 0.020, -0.006), (0.040, 0.040, -0.008), (0.070, 0.056, -0.013)]
-    places.append((0.094, 0.062, -0.017))
-    radii = (0.015, 0.0130, 0.0115, 0.0092)
-    return [
-        RoundCone(_hand_point(*places[k]), _hand_point(*places[k + 1]), radii[k], radii[k + 1])
-        for k in range(3)
-    ]
-
-
-def thumb_distance(points: FloatArray) -> FloatArray:
-    """Return how far points ``(p, 3)`` lie from the left thumb, in metres."""
-    every = [bone.distance(*points.T) for bone in _thumb()[1:]]
-    return np.asarray(np.min(every, axis=0))
-
-
-# Each finger: its knuckle from the wrist (along, front, outer), how far it spreads to the front,
-# how far each phalanx is curled (radians), the phalanges' lengths, the radius at the knuckle.
-_FINGERS = [
-    ((0.088, 0.0335, 0.000), 0.13, (0.22, 0.48, 0.72), (0.043, 0.026, 0.019), 0.0098),
-    ((0.092, 0.0120, 0.002), 0.04, (0.25, 0.53, 0.78), (0.047, 0.029, 0.020), 0.0100),
-    ((0.089, -0.0095, 0.001), -0.05, (0.28, 0.58, 0.84), (0.043, 0.027, 0.019), 0.0096),
-    ((0.081, -0.0295, -0.002), -0.15, (0.31, 0.63, 0.90), (0.034, 0.021, 0.017), 0.0086),
-]
-
-
 def _hand() -> Parts:
     """Return palm, thumb and fingers, a little curled."""
     palm = [
@@ -253,20 +222,17 @@ def _hand() -> Parts:
         (0.070, 0.041, 0.037, 0.015, 0.016, 0.001, 0.0),
         (0.090, 0.042, 0.038, 0.012, 0.013, 0.001, 0.0),
     ]
-    parts: Parts = [
-        (Loft(WRIST, DOWN_45, FORWARD, palm, (0.02, 0.008), 2.4, mirrored=True), 0.0),
-        *((bone, 0.014) for bone in _thumb()),
-    ]
-    for knuckle, spread, curls, lengths, radius in _FINGERS:
-        at = np.array(knuckle)
-        tapered = radius * np.array([1.0, 0.94, 0.87, 0.76])
-        for k, (curl, length) in enumerate(zip(curls, lengths, strict=True)):
-            level = np.cos(curl) * np.array([np.cos(spread), np.sin(spread)])
-            to = at + length * np.array([*level, -np.sin(curl)])
-            bone = RoundCone(_hand_point(*at), _hand_point(*to), tapered[k], tapered[k + 1])
-            parts.append((bone, 0.006))
-            at = to
+    parts: Parts = [(Loft(WRIST, DOWN_45, FORWARD, palm, (0.02, 0.008), 2.4, mirrored=True), 0.0)]
+    for finger in left_fingers():
+        reach_m = 0.014 if finger.name == "thumb" else 0.006
+        parts += [(bone, reach_m) for bone in finger_bones(finger)]
     return parts
+
+
+def finger_bones(finger: Finger) -> list[RoundCone]:
+    """Return a finger's bones with their flesh, from the hand to the tip."""
+    places, radii = [as_point(p) for p in finger.places], finger.radii.tolist()
+    return [RoundCone(places[k], places[k + 1], radii[k], radii[k + 1]) for k in range(3)]
 
 
 def _leg() -> Parts:

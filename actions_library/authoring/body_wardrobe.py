@@ -1,4 +1,4 @@
-"""What the shipped humanoid wears: shirt, trousers, shoes, hair, and the colours of its face.
+"""What the shipped humanoid wears: shirt, trousers, shoes and hair.
 
 Every piece is a solid of its own. Clothes are the body's field grown by some millimetres, loosened
 by wider shapes and cut where they end; what of them lies inside the body is never seen.
@@ -16,36 +16,30 @@ from actions_library.authoring.body_field import (
     HalfSpace,
     Loft,
     RoundCone,
-    united,
 )
 from actions_library.authoring.body_shape import (
     ANKLE,
     DOWN,
-    DOWN_45,
     FORWARD,
     HIP,
     KNEE,
     SHOULDER,
     UP,
     BodyFields,
-    Parts,
     as_point,
     between,
 )
-from smd.geometry.arrays import FloatArray
+from actions_library.authoring.hand_shape import DOWN_45
 
-FACE_BOX = ((0.0, 1.50, 0.02), (0.09, 1.70, 0.14))
-FACE_STEP_M = 0.001
 SOLE_STEP_M = 0.002
-"""What is small or thin has a finer grid of its own."""
-
-EYE_M = (0.033, 1.624)
-"""Where the left eye is, seen from the front."""
+"""What is thin has a finer grid of its own."""
 
 HEM_M = 0.040
 """Reach of the rounding where a piece ends."""
 
 Color = tuple[float, float, float]
+
+HAIR_RGB: Color = (0.055, 0.028, 0.016)
 
 
 @dataclass(frozen=True)
@@ -75,11 +69,7 @@ def wardrobe(body: BodyFields) -> list[Garment]:
         Garment("trousers", _trousers(body), 4400, (0.040, 0.045, 0.062)),
         Garment("shoes", _shoes(body), 2400, (0.52, 0.110, 0.055)),
         Garment("soles", _soles(), 2000, (0.78, 0.76, 0.72)),
-        Garment("hair", _hair(body), 2600, (0.055, 0.028, 0.016), on_head=True),
-        Garment("eyes", _eyes(body), 600, (0.012, 0.010, 0.010), on_head=True),
-        Garment("glints", _glints(body), 160, (0.9, 0.9, 0.9), on_head=True),
-        Garment("brows", _brows(body), 500, (0.055, 0.028, 0.016), on_head=True),
-        Garment("mouth", _mouth(body), 400, (0.28, 0.085, 0.065), on_head=True),
+        Garment("hair", _hair(body), 2600, HAIR_RGB, on_head=True),
     ]
 
 
@@ -191,46 +181,3 @@ def _hair(body: BodyFields) -> Field:
     hair.carve(Ellipsoid((0.095, 1.596, 0.006), (0.045, 0.052, 0.038)), 0.012)
     hair.keep(HalfSpace((0.0, 1.572, -0.08), (0.0, -1.0, 0.35)), HEM_M)
     return hair
-
-
-def _front_z_m(head: Field, x: float, y: float) -> float:
-    """Return how far to the front the face reaches at a place."""
-    z = np.linspace(0.0, 0.16, 641)
-    inside = head.sample(np.column_stack([np.full_like(z, x), np.full_like(z, y), z])) < 0.0
-    return float(z[inside].max())
-
-
-def _eyes(body: BodyFields) -> Field:
-    """Return the left eye, a dark oval."""
-    centre = (*EYE_M, _front_z_m(body.trunk, *EYE_M) - 0.002)
-    return united(FACE_BOX, FACE_STEP_M, [(Ellipsoid(centre, (0.0105, 0.0150, 0.008)), 0.0)])
-
-
-def _glints(body: BodyFields) -> Field:
-    """Return the light in the left eye."""
-    x, y = EYE_M[0] - 0.003, EYE_M[1] + 0.005
-    z = _front_z_m(body.trunk, *EYE_M) + 0.0042
-    return united(FACE_BOX, FACE_STEP_M, [(Ellipsoid((x, y, z), (0.0026, 0.0032, 0.0020)), 0.0)])
-
-
-def _strip(body: BodyFields, places: FloatArray, radii: FloatArray) -> Parts:
-    """Return a band over the face through places ``(k, 2)`` with the given radii."""
-    points = [(x, y, _front_z_m(body.trunk, x, y) - 0.001) for x, y in places]
-    return [
-        (RoundCone(points[k], points[k + 1], radii[k], radii[k + 1]), 0.002)
-        for k in range(len(points) - 1)
-    ]
-
-
-def _brows(body: BodyFields) -> Field:
-    """Return the left eyebrow."""
-    places = np.array([[0.018, 1.651], [0.027, 1.6545], [0.038, 1.6545], [0.049, 1.648]])
-    radii = np.array([0.0036, 0.0040, 0.0036, 0.0024])
-    return united(FACE_BOX, FACE_STEP_M, _strip(body, places, radii))
-
-
-def _mouth(body: BodyFields) -> Field:
-    """Return the line between the lips, a small smile."""
-    places = np.array([[0.0, 1.5635], [0.009, 1.5640], [0.017, 1.5660], [0.0235, 1.5700]])
-    radii = np.array([0.0024, 0.0024, 0.0021, 0.0015])
-    return united(FACE_BOX, FACE_STEP_M, _strip(body, places, radii))

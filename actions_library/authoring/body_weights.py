@@ -8,11 +8,14 @@ out what is left of the steps' corners.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from actions_library.authoring.body_shape import DOWN_45, BodyFields, thumb_distance
+from actions_library.authoring.body_shape import BodyFields, finger_bones
 from actions_library.authoring.body_surface import adjacency
+from actions_library.authoring.hand_shape import DOWN_45, left_fingers
 from actions_library.authoring.rigging import other_side
 from smd.character.character import MAX_INFLUENCES
 from smd.character.skeleton import Skeleton
@@ -21,6 +24,12 @@ from smd.geometry.rotations import normalized
 
 SMOOTHING_ROUNDS = 6
 """Rounds of averaging with the neighbours."""
+
+FINGERS_BLEND_M = 0.0015
+"""How soft the limit between two fingers is."""
+
+Beyond = Callable[[str, ArrayLike, float], FloatArray]
+"""How far points lie beyond a plane through a joint, square to a way, as a step of a half width."""
 
 
 def body_weights(
@@ -84,7 +93,7 @@ def strongest(dense: FloatArray) -> tuple[IntArray, FloatArray]:
     The fifth is taken from each of the four first: a weight then fades before it is dropped, and
     of two equal ones, left and right, not one alone stays.
     """
-    dense = np.where(dense < 1e-3, 0.0, dense)
+    dense = np.where(dense < 2e-3, 0.0, dense)
     order = np.argsort(-dense, axis=1, kind="stable")
     largest = np.take_along_axis(dense, order[:, : MAX_INFLUENCES + 1], axis=1)
     weights = largest[:, :MAX_INFLUENCES] - largest[:, MAX_INFLUENCES:]
@@ -129,19 +138,12 @@ def _left_shares(
     shares["left_shoulder"] = collar
 
     hand_way = places["left_hand"] - places["left_lower_arm"]
-    thumb = _step(-thumb_distance(points), -0.012, 0.0) * beyond(
-        "left_thumb", (0.7, -0.7, 0.35), 0.012
-    )
     arm_shares = _chain(
-        ("left_upper_arm", "left_lower_arm", "left_hand", "left_fingers"),
-        [
-            beyond("left_lower_arm", DOWN_45, 0.045),
-            beyond("left_hand", hand_way, 0.032),
-            beyond("left_fingers", DOWN_45, 0.014) * (1.0 - thumb),
-        ],
+        ("left_upper_arm", "left_lower_arm", "left_hand"),
+        [beyond("left_lower_arm", DOWN_45, 0.045), beyond("left_hand", hand_way, 0.032)],
     )
-    arm_shares["left_thumb"] = arm_shares["left_hand"] * thumb
-    arm_shares["left_hand"] = arm_shares["left_hand"] * (1.0 - thumb)
+    hand = arm_shares.pop("left_hand")
+    arm_shares |= {joint: share * hand for joint, share in _hand_shares(points, beyond).items()}
     leg_shares = _chain(
         ("left_upper_leg", "left_lower_leg", "left_foot", "left_toes"),
         [
@@ -153,6 +155,25 @@ def _left_shares(
     shares = {joint: share * (1.0 - on_arm) * (1.0 - on_leg) for joint, share in shares.items()}
     shares |= {joint: share * on_arm for joint, share in arm_shares.items()}
     return shares | {joint: share * on_leg for joint, share in leg_shares.items()}
+
+
+def _hand_shares(points: FloatArray, beyond: Beyond) -> dict[str, FloatArray]:
+    """Return the weights within a hand: each finger has what is nearer to it than to the others."""
+    fingers = left_fingers()
+    away = [np.min([b.distance(*points.T) for b in finger_bones(f)], axis=0) for f in fingers]
+    near = np.exp(-(np.array(away) - np.min(away, axis=0)) / FINGERS_BLEND_M)
+    near /= near.sum(axis=0)
+    hand, shares = np.ones(len(points)), dict[str, FloatArray]()
+    for finger, own, distance in zip(fingers, near, away, strict=True):
+        joints = tuple(f"left_{joint}" for joint in finger.joints)
+        ways = np.diff(finger.places, axis=0)
+        if finger.name == "thumb":
+            own = _step(-distance, -0.012, 0.0) * own
+        passed = [own * beyond(joints[0], ways[0], 0.012)]
+        passed += [beyond(joints[k], ways[k - 1] + ways[k], 0.007) for k in (1, 2)]
+        hand = hand - passed[0]
+        shares |= _chain(joints, passed[1:], passed[0])
+    return shares | {"left_hand": hand}
 
 
 def _chain(

@@ -14,6 +14,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from actions_library.authoring.curves import smooth_curve
+from actions_library.authoring.hand_poses import RELAXED, HandPose
 from smd.geometry.arrays import FloatArray
 
 Vector = tuple[float, float, float]
@@ -41,6 +42,14 @@ class Turn:
 
 
 @dataclass(frozen=True, slots=True)
+class Gaze:
+    """Where the eyes look from the head: to the left, then up (°)."""
+
+    left: float = 0.0
+    up: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class ArmKey:
     """An arm and its hand.
 
@@ -53,7 +62,7 @@ class ArmKey:
     shrug : lifts the shoulder (°).
     twist : turns the forearm, thumb inward (°).
     flex : bends the wrist toward the palm (°).
-    curl : closes the fingers (°).
+    fingers : how far each is closed: a pose of `authoring.hand_poses`.
     """
 
     to: Vector = (0.16, -1.0, 0.05)
@@ -63,7 +72,7 @@ class ArmKey:
     shrug: float = 0.0
     twist: float = 10.0
     flex: float = 6.0
-    curl: float = 28.0
+    fingers: HandPose = RELAXED
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +120,7 @@ class Key:
     hips: Turn | None = None
     chest: Turn | None = None
     head: Turn | None = None
+    gaze: Gaze | None = None
     left_arm: ArmKey | None = None
     right_arm: ArmKey | None = None
     left_hand: Hand | None = None
@@ -142,6 +152,7 @@ def mirrored(key: Key) -> Key:
         hips=other_way(key.hips),
         chest=other_way(key.chest),
         head=other_way(key.head),
+        gaze=key.gaze and replace(key.gaze, left=-key.gaze.left),
         left_arm=key.right_arm,
         right_arm=key.left_arm,
         left_hand=key.right_hand,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from actions_library.authoring.feet import FootPath, FootShape
+from actions_library.authoring.hand_poses import FLAT, bent_at_knuckles, turn_fingers
 from actions_library.authoring.keys import ArmKey, Hand, Numbers, columns_of
 from actions_library.authoring.pose import Pose
 from smd.character.ik import limb_of, two_bone_ik
@@ -83,18 +84,15 @@ def pose_arm(
             quaternion_about(fold, np.radians(arm["flex"])),
         ),
     )
-    curl = np.radians(arm["curl"])
+    fingers = arm["fingers"]
     if palm is not None:
         pose.set(hand, multiply(palm.rotation_xyzw, _flat_hand(out)))
-        curl = -palm.toes_up_rad
+        fingers = bent_at_knuckles(FLAT, -palm.toes_up_rad)
     elif held is not None:
         _, turned, hold = held
         own = pose.rotation[:, pose.skeleton.index(hand)]
         pose.set(hand, slerp(own, turned, hold))
-    pose.turn(f"{side}_fingers", quaternion_about(fold, curl))
-    over_palm = quaternion_about([1.0, -out, 0.0], 0.35 * curl)
-    across = quaternion_about([1.0, out, 0.0], 0.40 * curl)
-    pose.turn(f"{side}_thumb", multiply(across, over_palm))
+    turn_fingers(pose.turn, side, out, fingers)
 
 
 def _held(numbers: FloatArray, out: float) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -135,7 +133,7 @@ def _shoulder(to: FloatArray, arm: Numbers, out: float) -> FloatArray:
 def palm_shape(skeleton: Skeleton, side: str) -> FootShape:
     """Return a flat hand's measures, as a foot's: it rolls over the knuckles."""
     out = 1.0 if side == "left" else -1.0
-    knuckles = skeleton.rest_translation_m[skeleton.index(f"{side}_fingers")]
+    knuckles = skeleton.rest_translation_m[skeleton.index(f"{side}_middle_proximal")]
     return FootShape(
         ball=rotate(_flat_hand(out)[0], knuckles),
         heel=np.array([0.0, -WRIST_HEIGHT_M, -HEEL_OF_HAND_M]),

@@ -14,7 +14,7 @@ SEGMENTS = (
     ("neck", "head", 0.081, 1.60),
     ("{side}_upper_arm", "{side}_lower_arm", 0.028, 0.436),
     ("{side}_lower_arm", "{side}_hand", 0.016, 0.430),
-    ("{side}_hand", "{side}_fingers", 0.006, 0.506),
+    ("{side}_hand", "{side}_middle_proximal", 0.006, 0.506),
     ("{side}_upper_leg", "{side}_lower_leg", 0.100, 0.433),
     ("{side}_lower_leg", "{side}_foot", 0.0465, 0.433),
     ("{side}_foot", "{side}_toes", 0.0145, 0.500),

@@ -89,7 +89,7 @@ def make_clip(
     contacts = {}
     for side in SIDES:
         contacts.update(_contacts(feet[side], f"{side}_foot", f"{side}_toes"))
-        contacts.update(_contacts(palms[side], f"{side}_hand", f"{side}_fingers"))
+        contacts.update(_contacts(palms[side], f"{side}_hand", f"{side}_middle_proximal"))
     rotation, translation = pose.local()
     return Clip(
         name=name,
@@ -179,7 +179,7 @@ def _stand_on_ground(pose: Pose, ground: RootCourse) -> None:
 
 
 def _pose_trunk(pose: Pose, numbers: Numbers) -> None:
-    """Pose hips, spine, neck and head; the spine shares the way from hips to chest."""
+    """Pose hips, spine, neck, head and eyes; the spine shares the way from hips to chest."""
     hips, chest, head = (_turn(numbers[part]) for part in ("hips", "chest", "head"))
     j = pose.skeleton.index("hips")
     pose.rotation[:, j] = hips
@@ -188,3 +188,8 @@ def _pose_trunk(pose: Pose, numbers: Numbers) -> None:
         pose.set(joint, slerp(hips, chest, np.full(len(hips), share)))
     pose.set("neck", slerp(chest, head, np.full(len(hips), _NECK_SHARE)))
     pose.set("head", head)
+    left_up = numbers.get("gaze", np.zeros((len(head), 2)))
+    yaw_pitch = np.radians(left_up * [1.0, -1.0])
+    eyes = quaternion_from_euler("YXZ", np.column_stack([yaw_pitch, np.zeros(len(head))]))
+    for side in SIDES:
+        pose.turn(f"{side}_eye", eyes)

@@ -18,6 +18,7 @@ from smd.acting.terrain import Terrain
 from smd.character.character import Character
 from smd.character.mass import Mass
 from smd.character.poses import Poses
+from smd.character.roles import without_digits
 from smd.character.tracks import NO_TRACKS, Tracks
 from smd.doodle import Doodle
 from smd.errors import TransferError
@@ -87,12 +88,12 @@ def act(
     TransferError
         If there is no ground below its path, or several surfaces one above another.
     """
-    time_s = frames.time_s
+    time_s, joints = frames.time_s, without_digits(character.skeleton)
     flown = list(flights(moves, height_of(doodles) if doodles else None))
     return grounded_actor(
         name,
         character,
-        placed(posed(moves, time_s, idling), moves, time_s, frames.rate_hz),
+        placed(posed(moves, time_s, idling, joints), moves, time_s, frames.rate_hz),
         stepped(moves, time_s, idling),
         legs,
         start_s=frames.start_s,
@@ -102,7 +103,7 @@ def act(
         doodles=doodles,
         terrain=terrain,
         mass=mass,
-        tracks=tracked(moves, time_s, idling),
+        tracks=tracked(moves, time_s, idling, joints),
     )
 
 

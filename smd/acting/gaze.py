@@ -21,9 +21,9 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.acting.performance import Actor
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.poses import Poses
-from smd.character.roles import body_plan
+from smd.character.roles import plan_of
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
@@ -91,8 +91,7 @@ class Neck(NamedTuple):
 
 def neck_of(skeleton: Skeleton) -> Neck | None:
     """Return the neck of a skeleton; None where it has no head apart from its trunk."""
-    at_rest = forward_kinematics(skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m)
-    plan = body_plan(skeleton.joints, skeleton.parents.tolist(), at_rest[1], front=_FRONT.tolist())
+    plan = plan_of(skeleton)
     if plan.head is None or plan.chest not in plan.spine or plan.head not in plan.spine:
         return None
     joints = plan.spine[plan.spine.index(plan.chest) + 1 : plan.spine.index(plan.head) + 1]
@@ -123,8 +122,7 @@ def with_gaze(actors: Sequence[Actor], rate_hz: float) -> tuple[Actor, ...]:
 def _head_m(actor: Actor, neck: Neck | None) -> FloatArray:
     """Return where the head of an actor is ``(n, 3)``; without one, its topmost joint at rest."""
     skeleton = actor.character.skeleton
-    rest = forward_kinematics(skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m)
-    joint = int(np.argmax(rest[1][:, 1])) if neck is None else neck.joints[-1]
+    joint = neck.joints[-1] if neck else int(np.argmax(rest_in_world(skeleton)[1][:, 1]))
     return joints_in_world(skeleton, [joint], *actor.poses)[1][:, 0]
 
 
@@ -141,7 +139,7 @@ def _gazing(actor: Actor, neck: Neck, others: Sequence[FloatArray], rate_hz: flo
     """Return an actor's poses with its head turned."""
     skeleton = actor.character.skeleton
     rotation, translation = actor.poses
-    rest = forward_kinematics(skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m)[0]
+    rest = rest_in_world(skeleton)[0]
     joints = [neck.chest, *neck.joints]
     world, place = joints_in_world(skeleton, joints, rotation, translation)
     from_rest = multiply(world, inverse(rest[joints]))

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from smd.acting.performance import Actor, HeldProp
-from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.poses import Poses
-from smd.character.roles import body_plan
+from smd.character.roles import plan_of
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.rotations import (
@@ -83,11 +83,8 @@ def _holding(actor: Actor) -> Actor:
 
 def grip_of(skeleton: Skeleton) -> Grip | None:
     """Return the grip of a skeleton's right hand, else its left; None where neither can hold."""
-    world, place = forward_kinematics(
-        skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
-    )
-    parents = skeleton.parents.tolist()
-    plan = body_plan(skeleton.joints, parents, place, front=(0.0, 0.0, 1.0))
+    world, place = rest_in_world(skeleton)
+    parents, plan = skeleton.parents.tolist(), plan_of(skeleton)
     for side in ("right", "left"):
         arm = plan.of("arm", side)
         if arm is None:

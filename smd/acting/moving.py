@@ -12,7 +12,7 @@ from smd.acting.move import Footwork, Move, Playable
 from smd.acting.transitions import carried_over, transition_s
 from smd.character.poses import Poses, mixed
 from smd.character.tracks import NO_TRACKS, Tracks
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
 from smd.geometry.rotations import quaternion_about
 
@@ -47,7 +47,12 @@ class Idling:
         return (time_s - self.began_s) * self.rate_hz
 
 
-def posed(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Poses:
+def posed(
+    moves: Sequence[Move[Playable]],
+    time_s: FloatArray,
+    idling: Idling,
+    joints: IntArray | None = None,
+) -> Poses:
     """Return local poses at each time, with transitions, the ground root left at its origin.
 
     Parameters
@@ -56,13 +61,15 @@ def posed(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -
         One after the other; each acts from where the one before it ends.
     time_s
         ``(n,)`` increasing, from the first move's start to the last one's end.
+    joints
+        Those whose turns decide how long a transition takes; by default all.
     """
     pieces: list[Poses] = []
     for i, (move, rows) in enumerate(zip(moves, rows_of(moves, time_s), strict=True)):
         now_s = time_s[rows]
         poses = own_poses(move, now_s, idling)
         if i > 0 and len(now_s) > 0:
-            poses = _joined(moves[i - 1], move, poses, now_s, idling)
+            poses = _joined(moves[i - 1], move, poses, now_s, idling, joints)
         pieces.append(poses)
     return Poses(
         np.concatenate([piece.rotation_xyzw for piece in pieces]),
@@ -70,7 +77,12 @@ def posed(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -
     )
 
 
-def tracked(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling) -> Tracks:
+def tracked(
+    moves: Sequence[Move[Playable]],
+    time_s: FloatArray,
+    idling: Idling,
+    joints: IntArray | None = None,
+) -> Tracks:
     """Return the tracks at each time, of all names that any clip has; parameters as in `posed`.
 
     At a boundary they are mixed from their last values into the next move's, in as much time as
@@ -90,7 +102,7 @@ def tracked(moves: Sequence[Move[Playable]], time_s: FloatArray, idling: Idling)
             before = moves[i - 1]
             at_s = before.end_s
             last = _own_values(before, np.array([at_s]), idling, names)
-            over_s = _over_s(before, move, *_ends(before, move, idling))
+            over_s = _over_s(before, move, *_ends(before, move, idling), joints)
             got = smootherstep((now_s - at_s) / over_s)[:, None] if over_s > 0.0 else 1.0
             value[rows] = last + got * (value[rows] - last)
     return Tracks(names, value)
@@ -166,11 +178,12 @@ def _joined(
     poses: Poses,
     now_s: FloatArray,
     idling: Idling,
+    joints: IntArray | None,
 ) -> Poses:
     """Let the difference to the previous move decay over the first poses of this one."""
     at_s = before.end_s
     ends = _ends(before, move, idling)
-    over_s = _over_s(before, move, *ends)
+    over_s = _over_s(before, move, *ends, joints)
     count = int(np.searchsorted(now_s, at_s + over_s))
     if count == 0:
         return poses
@@ -188,7 +201,13 @@ def _ends(before: Move[Playable], move: Move[Playable], idling: Idling) -> tuple
     )
 
 
-def _over_s(before: Move[Playable], move: Move[Playable], left: Poses, right: Poses) -> float:
+def _over_s(
+    before: Move[Playable],
+    move: Move[Playable],
+    left: Poses,
+    right: Poses,
+    joints: IntArray | None,
+) -> float:
     """Return how long the transition from one move into the next takes."""
-    over_s = max(transition_s(left, right), move.waits_s)
+    over_s = max(transition_s(left, right, joints), move.waits_s)
     return min(over_s, move.start_s - before.end_s + move.room_s)

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from smd.character.poses import Poses
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.easing import fading, smootherstep
 from smd.geometry.rotations import (
     inverse,
@@ -32,15 +32,18 @@ TURNING_RAD_S = np.radians(240.0)
 greatest speed is 1.9 times as much."""
 
 
-def transition_s(before: Poses, after: Poses) -> float:
+def transition_s(before: Poses, after: Poses, joints: IntArray | None = None) -> float:
     """Return the duration of the transition into a move.
 
     Parameters
     ----------
     before, after
         The first move's last two poses, and the second one's first two.
+    joints
+        Those whose turns count (`smd.character.roles.without_digits`); by default all.
     """
-    same = np.sum(before.rotation_xyzw[1] * after.rotation_xyzw[0], axis=-1)
+    count = slice(None) if joints is None else joints
+    same = np.sum(before.rotation_xyzw[1, count] * after.rotation_xyzw[0, count], axis=-1)
     farthest = 2.0 * float(np.arccos(np.clip(np.abs(same).min(), 0.0, 1.0)))
     return max(TRANSITION_S, farthest / TURNING_RAD_S)
 

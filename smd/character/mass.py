@@ -8,7 +8,7 @@ import numpy as np
 
 from laban.frozen import Frozen
 from smd.character.kinematics import joints_in_world, rest_in_world
-from smd.character.roles import BodyPlan, LimbPlan, body_plan
+from smd.character.roles import BodyPlan, LimbPlan, plan_of
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, IntArray, frozen_array
@@ -66,7 +66,7 @@ class Mass(Frozen):
 def mass_of(skeleton: Skeleton) -> Mass | None:
     """Return where a body's weight is; None where no legs carry it."""
     _, place_m = rest_in_world(skeleton)
-    plan = body_plan(skeleton.joints, skeleton.parents.tolist(), place_m, front=(0.0, 0.0, 1.0))
+    plan = plan_of(skeleton)
     legs = [limb for limb in plan.limbs if limb.kind == "leg"]
     if not legs:
         return None

@@ -13,13 +13,15 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 
-from smd.character.skeleton import Role
+from smd.character.kinematics import rest_in_world
+from smd.character.skeleton import Role, Skeleton
 from smd.errors import CharacterError
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import FloatArray, IntArray
 from smd.geometry.rotations import inverse, normalized, quaternion_between, rotate
 
 Side = Literal["left", "right"]
@@ -102,6 +104,33 @@ class BodyPlan:
     def of(self, kind: str, side: str) -> LimbPlan | None:
         """Return the first limb of a kind and side, or None."""
         return next((x for x in self.limbs if (x.kind, x.side) == (kind, side)), None)
+
+
+@lru_cache(maxsize=16)
+def plan_of(skeleton: Skeleton) -> BodyPlan:
+    """Return how a character's skeleton is built; at rest it faces +Z."""
+    place_m = rest_in_world(skeleton)[1]
+    parents = skeleton.parents.tolist()
+    return body_plan(skeleton.joints, parents, place_m, front=(0.0, 0.0, 1.0))
+
+
+@lru_cache(maxsize=16)
+def without_digits(skeleton: Skeleton) -> IntArray:
+    """Return all joints but those beyond a hand or a foot.
+
+    Fingers are many, and quick: they neither say how far a body is from a pose, nor how long it
+    takes to get there.
+    """
+    digits: set[int] = set()
+    for limb in plan_of(skeleton).limbs:
+        beyond = {limb.end}
+        for joint, parent in enumerate(skeleton.parents.tolist()):
+            if parent in beyond:
+                beyond.add(joint)
+        digits |= beyond - {limb.end}
+    kept = np.array([joint for joint in range(len(skeleton)) if joint not in digits])
+    kept.flags.writeable = False
+    return kept
 
 
 def body_plan(

@@ -9,7 +9,7 @@ import numpy as np
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
 from smd.character.kinematics import rest_in_world
-from smd.character.roles import BodyPlan, LimbPlan, body_plan
+from smd.character.roles import BodyPlan, LimbPlan, plan_of
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, IntArray
@@ -93,7 +93,7 @@ def body_of(clip: Clip) -> Body:
     """Return the joints of a clip's skeleton that express Effort."""
     skeleton = clip.skeleton
     turned, place = rest_in_world(skeleton)
-    plan = body_plan(skeleton.joints, skeleton.parents.tolist(), place, front=(0.0, 0.0, 1.0))
+    plan = plan_of(skeleton)
     trunk = plan.spine[: plan.spine.index(plan.chest) + 1] if plan.chest in plan.spine else ()
     after = plan.spine[len(trunk) :]
     legs = {joint for limb in plan.limbs if limb.kind == "leg" for joint in limb.chain}

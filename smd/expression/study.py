@@ -10,6 +10,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses, mixed
+from smd.character.roles import without_digits
 from smd.expression.aim import Aim, aim_of, freedom, progress, seen_from_root, swing
 from smd.expression.body import Body
 from smd.expression.reaching import bearing
@@ -63,12 +64,13 @@ def study_of(clip: Clip, body: Body) -> Study:
     """Return the study of a neutral clip."""
     _, place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
     seen = seen_from_root(clip, place)
+    moving = seen[:, without_digits(clip.skeleton)]
     hands = place[:, [arm.hand for arm in body.arms]]
     # A body without legs may have its pelvis for its lowest joint: it never lies down.
     height, stir = np.ones(len(clip)), 1.0
     if body.pelvis_height_m > 0.0:
         height = place[:, body.pelvis, 1] / body.pelvis_height_m
-        steps = np.linalg.norm(np.diff(seen, axis=0), axis=-1)
+        steps = np.linalg.norm(np.diff(moving, axis=0), axis=-1)
         stir = float(steps.mean(axis=-1).sum()) / body.pelvis_height_m
     resting = bearing(hands[..., 1])
     legs = smootherstep((height - GROUNDED) / (CARRIED - GROUNDED))
@@ -81,7 +83,7 @@ def study_of(clip: Clip, body: Body) -> Study:
         free=freedom(clip, aim),
         swings=np.ones(len(clip)) if clip.cyclic else swing(clip),
         about=_middle(clip) if clip.cyclic else _way(clip, aim, seen),
-        vigour=vigour_of(seen, clip.rate_hz),
+        vigour=vigour_of(moving, clip.rate_hz),
         stir=stir,
         carried=carried,
         hands_m=hands,

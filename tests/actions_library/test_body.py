@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from actions_library.authoring.body import BODY_TRIANGLES, humanoid_character
+from actions_library.authoring.hand_shape import left_fingers
 from actions_library.authoring.humanoid import HEIGHT_M, humanoid_skeleton
 from actions_library.folder import load_library
 from smd.character.character import Character, Mesh
@@ -38,6 +39,11 @@ def figure(request) -> Character:
 @pytest.fixture(scope="module")
 def body(figure) -> Mesh:
     return named(figure, "body")
+
+
+@pytest.fixture(scope="module")
+def head(figure) -> Mesh:
+    return named(figure, "head")
 
 
 def named(character: Character, name: str) -> Mesh:
@@ -104,8 +110,8 @@ def test_every_mesh_is_closed_and_its_two_sides_agree(figure):
         assert {tuple(e) for e in there} == {tuple(e) for e in there[:, ::-1]}, mesh.name
 
 
-def test_the_body_is_one_piece_and_nothing_has_a_handle(shipped):
-    assert pieces(named(shipped, "body")) == 1
+def test_body_and_head_are_one_piece_each_and_nothing_has_a_handle(shipped):
+    assert pieces(named(shipped, "body")) == pieces(named(shipped, "head")) == 1
     for mesh in shipped.meshes:
         euler = len(mesh.points_m) - len(half_edges(mesh)) // 2 + len(mesh.triangles)
         assert euler == 2 * pieces(mesh), mesh.name
@@ -117,22 +123,23 @@ def test_points_are_welded_and_used(figure):
         assert len(np.unique(mesh.triangles)) == len(mesh.points_m), mesh.name
 
 
-def test_the_bodys_triangles_are_many_enough_and_well_shaped(shipped):
-    body = named(shipped, "body")
-    assert 6_000 <= len(body.triangles) <= 20_000
-    corners = body.points_m[body.triangles]
+@pytest.mark.parametrize("name", ["body", "head"])
+def test_the_skins_triangles_are_many_enough_and_well_shaped(shipped, name):
+    skin = named(shipped, name)
+    assert 6_000 <= len(skin.triangles) <= 20_000
+    corners = skin.points_m[skin.triangles]
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    height = np.linalg.norm(normals(body), axis=1) / longest
-    assert (longest / height).max() < 8.0
+    height = np.linalg.norm(normals(skin), axis=1) / longest
+    assert np.quantile(longest / height, 0.995) < 8.0
 
 
-def test_the_figure_is_as_tall_as_its_skeleton_says(figure, body):
+def test_the_figure_is_as_tall_as_its_skeleton_says(figure, head):
     assert figure.height_m == pytest.approx(HEIGHT_M, abs=0.01)
-    assert body.points_m[:, 1].max() == pytest.approx(HEIGHT_M, abs=0.015)
+    assert head.points_m[:, 1].max() == pytest.approx(HEIGHT_M, abs=0.015)
 
 
-def test_the_volume_is_a_persons_and_the_normals_point_outwards(figure, body):
-    assert 0.05 < volume_m3(body) < 0.09
+def test_the_volume_is_a_persons_and_the_normals_point_outwards(figure, body, head):
+    assert 0.05 < volume_m3(body) + volume_m3(head) < 0.09
     assert all(volume_m3(mesh) > 0 for mesh in figure.meshes)
 
 
@@ -151,20 +158,25 @@ def test_the_figure_is_its_own_mirror_image(figure):
             np.testing.assert_allclose(mine, its[image], atol=1e-4, err_msg=mesh.name)
 
 
-def test_the_figure_faces_forward(figure, body):
-    head = body.points_m[weights(figure, body, "head") > 0.99]
-    nose = head[head[:, 2].argmax()]
+def test_the_figure_faces_forward(figure, body, head):
+    face = head.points_m[weights(figure, head, "head") > 0.99]
+    nose = face[face[:, 2].argmax()]
     assert abs(nose[0]) < 0.005
     assert 1.58 < nose[1] < 1.64
-    for name in ("eyes", "brows", "mouth"):
+    for name in ("irises", "brows", "lips"):
         assert named(figure, name).points_m[:, 2].min() > 0.05
     toes = body.points_m[weights(figure, body, "left_toes", "right_toes") > 0.99]
     assert toes[:, 2].min() > figure.skeleton.world_from_bind[0, 2, 3] + 0.1
 
 
-def test_the_face_moves_as_one_with_the_head(figure):
-    for name in ("eyes", "glints", "brows", "mouth", "hair"):
+def test_the_face_moves_with_the_head_and_each_eye_with_its_own_joint(figure):
+    for name in ("brows", "lashes", "lips", "mouth", "upper_teeth", "tongue", "hair"):
         assert weights(figure, named(figure, name), "head").min() == pytest.approx(1.0)
+    for name in ("eyes", "irises", "pupils", "glints"):
+        mesh = named(figure, name)
+        left = weights(figure, mesh, "left_eye")
+        np.testing.assert_array_equal(left, mesh.points_m[:, 0] > 0.0)
+        np.testing.assert_array_equal(weights(figure, mesh, "right_eye"), 1.0 - left)
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
@@ -179,13 +191,27 @@ def test_a_leg_moves_nothing_of_the_other(figure, side):
 
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_an_arm_moves_the_torso_at_the_armpit_only(figure, side):
-    arm = [f"{side}_{part}" for part in ("upper_arm", "lower_arm", "hand", "thumb", "fingers")]
+    fingers = [joint for finger in left_fingers() for joint in finger.joints]
+    arm = [f"{side}_{part}" for part in ("upper_arm", "lower_arm", "hand", *fingers)]
     sign = 1.0 if side == "left" else -1.0
     for name in ("body", "shirt", "trousers"):
         mesh = named(figure, name)
         x, y, _ = mesh.points_m.T
         torso = (sign * x < 0.22) & (y < 1.20)
         assert weights(figure, mesh, *arm)[torso | (sign * x < 0.0)].max() < 1e-6
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_each_finger_moves_its_own_flesh_alone(shipped, side):
+    body = named(shipped, "body")
+    out = 1.0 if side == "left" else -1.0
+    for finger in left_fingers():
+        tip = finger.places[3] * [out, 1.0, 1.0]
+        at_tip = np.linalg.norm(body.points_m - tip, axis=1) < 0.011
+        joints = [f"{side}_{joint}" for joint in finger.joints]
+        assert at_tip.sum() > 5
+        assert weights(shipped, body, *joints)[at_tip].min() > 0.97, finger.name
+        assert weights(shipped, body, joints[2])[at_tip].mean() > 0.9, finger.name
 
 
 def test_a_hand_by_the_thigh_does_not_pull_it(figure, body):

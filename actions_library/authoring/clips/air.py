@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from actions_library.authoring.hand_poses import FIST, FLAT, HOLD, RELAXED
 from actions_library.authoring.keys import ArmKey, Hand, Key, LegKey, Place, Turn, both_sides
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import standing_still, steady_travel
@@ -15,9 +16,11 @@ def fly(skeleton: Skeleton) -> Clip:
     """Return flight: lying on the air behind one fist, banking a little."""
     duration = 72 / 60
     fist = ArmKey(
-        to=(0.10, 1.0, 0.16), bend=8.0, elbow=(1.0, 0.0, 0.3), twist=60.0, flex=0.0, curl=150.0
+        to=(0.10, 1.0, 0.16), bend=8.0, elbow=(1.0, 0.0, 0.3), twist=60.0, flex=0.0, fingers=FIST
     )
-    swept = ArmKey(to=(0.42, -1.0, -0.10), bend=14.0, elbow=(0.6, 0.0, -1.0), flex=-8.0, curl=15.0)
+    swept = ArmKey(
+        to=(0.42, -1.0, -0.10), bend=14.0, elbow=(0.6, 0.0, -1.0), flex=-8.0, fingers=FLAT
+    )
     straight = LegKey(to=(0.06, -1.0, -0.02), bend=6.0, point=48.0)
     bent = LegKey(to=(0.04, -1.0, 0.06), bend=38.0, point=52.0)
     keys = [
@@ -71,11 +74,13 @@ def fly(skeleton: Skeleton) -> Clip:
 def swim(skeleton: Skeleton) -> Clip:
     """Return the front crawl, at the height of a pool's surface: two strokes, six kicks."""
     duration, stride = 96 / 60, 1.9
-    entry = ArmKey(to=(0.10, 1.0, 0.12), bend=14.0, elbow=(1.0, 0.2, -0.4), twist=40.0, curl=12.0)
-    pull = ArmKey(to=(0.16, 0.10, 1.0), bend=52.0, elbow=(1.0, 0.5, 0.1), twist=20.0, curl=12.0)
-    push = ArmKey(to=(0.24, -1.0, 0.16), bend=14.0, elbow=(0.8, 0.2, -0.8), twist=0.0, curl=12.0)
+    entry = ArmKey(
+        to=(0.10, 1.0, 0.12), bend=14.0, elbow=(1.0, 0.2, -0.4), twist=40.0, fingers=FLAT
+    )
+    pull = ArmKey(to=(0.16, 0.10, 1.0), bend=52.0, elbow=(1.0, 0.5, 0.1), twist=20.0, fingers=FLAT)
+    push = ArmKey(to=(0.24, -1.0, 0.16), bend=14.0, elbow=(0.8, 0.2, -0.8), twist=0.0, fingers=FLAT)
     recovery = ArmKey(
-        to=(0.90, -0.10, -0.42), bend=84.0, elbow=(0.6, 0.1, -1.0), twist=10.0, curl=20.0
+        to=(0.90, -0.10, -0.42), bend=84.0, elbow=(0.6, 0.1, -1.0), twist=10.0, fingers=RELAXED
     )
     half = [
         Key(
@@ -124,7 +129,7 @@ def swim(skeleton: Skeleton) -> Clip:
 def climb(skeleton: Skeleton) -> Clip:
     """Climb on the spot, as up an endless ladder: the rungs come down, hand over hand."""
     duration = 90 / 60
-    arm = ArmKey(to=(0.12, 0.85, 0.6), bend=50.0, elbow=(0.9, -1.0, -0.2), curl=130.0, twist=60.0)
+    arm = ArmKey(to=(0.12, 0.85, 0.6), bend=50.0, elbow=(0.9, -1.0, -0.2), fingers=HOLD, twist=60.0)
 
     def rung(up: float, ahead: float = 0.40) -> Hand:
         return Hand(place=(0.17, up, ahead), fingers=(-0.1, 1.0, 0.5), palm=(0.0, -0.35, 1.0))

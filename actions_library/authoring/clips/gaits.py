@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import Plant, Via, other_foot, repeated
+from actions_library.authoring.hand_poses import FIST, RELAXED
 from actions_library.authoring.keys import ArmKey, Key, Place, Turn, both_sides
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import steady_travel
@@ -77,10 +78,10 @@ def run(skeleton: Skeleton) -> Clip:
             chest=Turn(yaw=9.0, lean=13.0, tilt=0.0),
             head=Turn(yaw=1.0, lean=6.0),
             left_arm=ArmKey(
-                to=(0.34, -1.0, -0.12), bend=88.0, elbow=(0.35, 0.0, -1.0), twist=5.0, curl=115.0
+                to=(0.34, -1.0, -0.12), bend=88.0, elbow=(0.35, 0.0, -1.0), twist=5.0, fingers=FIST
             ),
             right_arm=ArmKey(
-                to=(-0.20, -0.25, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=5.0, curl=115.0
+                to=(-0.20, -0.25, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=5.0, fingers=FIST
             ),
         ),
         Key(
@@ -93,10 +94,10 @@ def run(skeleton: Skeleton) -> Clip:
         Key(
             0.21,
             left_arm=ArmKey(
-                to=(0.02, -1.0, 0.45), bend=92.0, elbow=(0.5, -0.4, -1.0), twist=5.0, curl=115.0
+                to=(0.02, -1.0, 0.45), bend=92.0, elbow=(0.5, -0.4, -1.0), twist=5.0, fingers=FIST
             ),
             right_arm=ArmKey(
-                to=(0.02, -1.0, 0.45), bend=92.0, elbow=(0.5, -0.4, -1.0), twist=5.0, curl=115.0
+                to=(0.02, -1.0, 0.45), bend=92.0, elbow=(0.5, -0.4, -1.0), twist=5.0, fingers=FIST
             ),
         ),
         Key(  # toes off
@@ -129,7 +130,9 @@ def run(skeleton: Skeleton) -> Clip:
 def sneak(skeleton: Skeleton) -> Clip:
     """Two long, low steps on the toes, knees lifted high, hands held before the chest."""
     duration, stride = 108 / 60, 1.16
-    paw = ArmKey(to=(0.06, -0.62, 0.9), bend=78.0, elbow=(0.9, -0.3, -0.7), flex=62.0, curl=34.0)
+    paw = ArmKey(
+        to=(0.06, -0.62, 0.9), bend=78.0, elbow=(0.9, -0.3, -0.7), flex=62.0, fingers=RELAXED
+    )
     half = [
         Key(  # the left toes touch, the weight still behind
             0.0,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from actions_library.authoring.hand_poses import FLAT
 from actions_library.authoring.keys import ArmKey, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, standing_still
@@ -14,7 +15,7 @@ from smd.character.skeleton import Skeleton
 def bow(skeleton: Skeleton) -> Clip:
     """Return a formal bow: from the hips, the back straight, the arms along the body."""
     duration = 2.60
-    straight = ArmKey(to=(0.15, -1.0, 0.03), bend=10.0, twist=15.0, flex=2.0, curl=12.0)
+    straight = ArmKey(to=(0.15, -1.0, 0.03), bend=10.0, twist=15.0, flex=2.0, fingers=FLAT)
     held = replace(straight, to=(0.10, -1.0, 0.16), bend=8.0)
     keys = [
         STAND,
@@ -134,7 +135,12 @@ def wave(skeleton: Skeleton) -> Clip:
     """
     duration, beat = 2.60, 0.21
     up = ArmKey(
-        to=(0.62, 0.55, 0.42), bend=78.0, elbow=(1.0, -0.7, -0.1), twist=-62.0, flex=0.0, curl=8.0
+        to=(0.62, 0.55, 0.42),
+        bend=78.0,
+        elbow=(1.0, -0.7, -0.1),
+        twist=-62.0,
+        flex=0.0,
+        fingers=FLAT,
     )
     inward = replace(up, to=(0.30, 0.75, 0.42), bend=88.0, flex=-4.0)
     outward = replace(up, to=(0.95, 0.62, 0.36), bend=52.0, flex=6.0)

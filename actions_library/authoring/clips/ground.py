@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot, repeated
+from actions_library.authoring.hand_poses import FLAT, RELAXED
 from actions_library.authoring.keys import (
     ArmKey,
     Hand,
@@ -111,8 +112,8 @@ def roll(skeleton: Skeleton) -> Clip:
     off, landed = 0.80, 1.52
     tucked = LegKey(to=(0.10, -0.30, 1.0), bend=128.0, point=20.0)
     on_ground = Hand(place=(0.20, 0.088, 0.60), fingers=(-0.2, 0.0, 1.0), palm=(0.0, -1.0, 0.1))
-    reaching = ArmKey(to=(0.12, 0.20, 1.0), bend=40.0, elbow=(1.0, -0.6, 0.2), curl=4.0)
-    hugging = ArmKey(to=(0.14, -0.62, 0.85), bend=64.0, elbow=(1.0, -0.2, -0.4), curl=40.0)
+    reaching = ArmKey(to=(0.12, 0.20, 1.0), bend=40.0, elbow=(1.0, -0.6, 0.2), fingers=FLAT)
+    hugging = ArmKey(to=(0.14, -0.62, 0.85), bend=64.0, elbow=(1.0, -0.2, -0.4), fingers=RELAXED)
     keys = [
         STAND,
         Key(  # squats
@@ -242,10 +243,10 @@ def _head_over_heels(key: Key) -> Key:
 def fall(skeleton: Skeleton) -> Clip:
     """Return a fall onto the back, a moment of lying there, and getting up again."""
     duration = 3.95
-    flung = ArmKey(to=(0.75, 0.35, 0.75), bend=22.0, elbow=(0.4, -1.0, -0.4), curl=20.0)
-    spread = ArmKey(to=(1.0, -0.30, -0.03), bend=22.0, elbow=(0.1, -1.0, -0.2), curl=24.0)
+    flung = ArmKey(to=(0.75, 0.35, 0.75), bend=22.0, elbow=(0.4, -1.0, -0.4), fingers=RELAXED)
+    spread = ArmKey(to=(1.0, -0.30, -0.03), bend=22.0, elbow=(0.1, -1.0, -0.2), fingers=RELAXED)
     pushing = ArmKey(
-        to=(0.62, -0.45, -0.66), bend=24.0, elbow=(0.5, 0.2, -1.0), flex=-40.0, curl=10.0
+        to=(0.62, -0.45, -0.66), bend=24.0, elbow=(0.5, 0.2, -1.0), flex=-40.0, fingers=FLAT
     )
     prop = Hand((0.29, 0.085, -0.62), fingers=(0.75, 0.0, -0.65), palm=(0.0, -1.0, 0.0))
 

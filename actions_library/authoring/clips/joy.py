@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from actions_library.authoring.clips.jumps import ballistic
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot, repeated
+from actions_library.authoring.hand_poses import FIST, FLAT, LOOSE
 from actions_library.authoring.keys import ArmKey, Hand, Key, Place, Turn, at, both_sides
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
@@ -21,7 +22,7 @@ from smd.character.skeleton import Skeleton
 def clap(skeleton: Skeleton) -> Clip:
     """Clap the hands before the chest, five times."""
     duration, first, beat = 2.40, 0.52, 0.28
-    arm = ArmKey(to=(0.05, -0.45, 0.8), bend=86.0, elbow=(0.9, -1.0, -0.3), curl=12.0)
+    arm = ArmKey(to=(0.05, -0.45, 0.8), bend=86.0, elbow=(0.9, -1.0, -0.3), fingers=FLAT)
     apart = Hand((0.150, 1.20, 0.345), fingers=(0.12, 0.55, 0.80), palm=(-1.0, 0.0, 0.0))
     together = replace(apart, place=(0.030, 1.215, 0.375), fingers=(-0.10, 0.55, 0.80))
 
@@ -83,8 +84,8 @@ def cheer(skeleton: Skeleton) -> Clip:
     """Throw both arms up and jump for joy, twice."""
     duration = 3.00
     flights = ((0.64, 0.96), (1.44, 1.76))
-    down = ArmKey(to=(0.30, -0.90, 0.35), bend=92.0, elbow=(0.8, -0.3, -1.0), curl=130.0)
-    high = ArmKey(to=(0.55, 1.0, 0.12), bend=16.0, elbow=(0.9, -0.3, 0.2), curl=130.0)
+    down = ArmKey(to=(0.30, -0.90, 0.35), bend=92.0, elbow=(0.8, -0.3, -1.0), fingers=FIST)
+    high = ArmKey(to=(0.55, 1.0, 0.12), bend=16.0, elbow=(0.9, -0.3, 0.2), fingers=FIST)
     pumped = replace(high, to=(0.60, 0.80, 0.28), bend=60.0)
     take_off, touch_down = Place(up=-0.006, ahead=0.015), Place(up=-0.070, ahead=0.010)
     crouch = Place(up=-0.200, ahead=-0.025)
@@ -176,8 +177,8 @@ def cheer(skeleton: Skeleton) -> Clip:
 def dance(skeleton: Skeleton) -> Clip:
     """Dance on the spot: step, touch, step, touch, the hips and the arms swinging."""
     duration = 76 / 60
-    swung = ArmKey(to=(0.75, -0.45, 0.50), bend=70.0, elbow=(0.8, -0.8, -0.6), curl=60.0)
-    across = ArmKey(to=(-0.25, -0.40, 0.95), bend=86.0, elbow=(1.0, -0.5, 0.1), curl=60.0)
+    swung = ArmKey(to=(0.75, -0.45, 0.50), bend=70.0, elbow=(0.8, -0.8, -0.6), fingers=LOOSE)
+    across = ArmKey(to=(-0.25, -0.40, 0.95), bend=86.0, elbow=(1.0, -0.5, 0.1), fingers=LOOSE)
     half = [
         Key(  # the left foot has stepped to the left
             0.0,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import Plant, Via, repeated
+from actions_library.authoring.hand_poses import FLAT, LOOSE, RELAXED
 from actions_library.authoring.keys import ArmKey, Key, LegKey, Place, Turn, at, carried
 from actions_library.authoring.posing import RATE_HZ, make_clip
 from actions_library.authoring.stance import (
@@ -22,9 +23,9 @@ def jump(skeleton: Skeleton) -> Clip:
     """Return a standing long jump: crouch, swing, flight, landing."""
     duration, far = 2.10, 1.20
     crouched, off, landed, absorbed = 34 / 60, 51 / 60, 77 / 60, 94 / 60
-    back = ArmKey(to=(0.35, -0.75, -1.0), bend=12.0, elbow=(0.6, 0.4, -1.0), curl=45.0)
-    up = ArmKey(to=(0.28, 1.0, 0.70), bend=18.0, elbow=(0.8, -0.6, -0.2), curl=30.0)
-    down = ArmKey(to=(0.34, -0.55, 1.0), bend=30.0, elbow=(0.9, -0.4, -0.4), curl=30.0)
+    back = ArmKey(to=(0.35, -0.75, -1.0), bend=12.0, elbow=(0.6, 0.4, -1.0), fingers=LOOSE)
+    up = ArmKey(to=(0.28, 1.0, 0.70), bend=18.0, elbow=(0.8, -0.6, -0.2), fingers=RELAXED)
+    down = ArmKey(to=(0.34, -0.55, 1.0), bend=30.0, elbow=(0.9, -0.4, -0.4), fingers=RELAXED)
     take_off = Place(up=-0.005, ahead=0.31)
     touch_down = Place(up=-0.165, ahead=far - 0.15)
     keys = [
@@ -131,8 +132,8 @@ def hop(skeleton: Skeleton) -> Clip:
     """Hop on the left leg, again and again, the right one drawn up."""
     duration, off, landed = 36 / 60, 10 / 60, 29 / 60
     take_off, touch_down = Place(left=0.085, up=-0.004), Place(left=0.085, up=-0.030)
-    wide = ArmKey(to=(0.85, -0.62, 0.30), bend=42.0, elbow=(0.5, -0.6, -0.8), curl=30.0)
-    flung = ArmKey(to=(0.95, -0.12, 0.26), bend=36.0, elbow=(0.4, -0.8, -0.6), curl=24.0)
+    wide = ArmKey(to=(0.85, -0.62, 0.30), bend=42.0, elbow=(0.5, -0.6, -0.8), fingers=RELAXED)
+    flung = ArmKey(to=(0.95, -0.12, 0.26), bend=36.0, elbow=(0.4, -0.8, -0.6), fingers=RELAXED)
     drawn = LegKey(to=(0.10, -0.86, -0.26), bend=92.0, knee=(0.2, -0.2, 1.0), point=28.0)
     keys = [
         Key(
@@ -231,8 +232,12 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-16.0, lean=4.0),
             chest=Turn(yaw=6.0, lean=4.0),
             head=Turn(lean=-3.0),
-            left_arm=ArmKey(to=(0.50, 0.55, 0.85), bend=12.0, elbow=(0.7, -0.7, -0.2), curl=14.0),
-            right_arm=ArmKey(to=(1.0, 0.32, -0.10), bend=12.0, elbow=(0.1, -0.9, -0.6), curl=14.0),
+            left_arm=ArmKey(
+                to=(0.50, 0.55, 0.85), bend=12.0, elbow=(0.7, -0.7, -0.2), fingers=FLAT
+            ),
+            right_arm=ArmKey(
+                to=(1.0, 0.32, -0.10), bend=12.0, elbow=(0.1, -0.9, -0.6), fingers=FLAT
+            ),
             left_leg=behind_leg,
             right_leg=ahead_leg,
         ),
@@ -242,8 +247,8 @@ def leap(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-10.0, lean=10.0, tilt=-2.0),
             chest=Turn(yaw=4.0, lean=14.0, tilt=1.0),
             head=Turn(lean=6.0),
-            left_arm=ArmKey(to=(0.70, -0.10, 0.70), bend=22.0, curl=20.0),
-            right_arm=ArmKey(to=(0.95, -0.10, 0.05), bend=22.0, curl=20.0),
+            left_arm=ArmKey(to=(0.70, -0.10, 0.70), bend=22.0, fingers=RELAXED),
+            right_arm=ArmKey(to=(0.95, -0.10, 0.05), bend=22.0, fingers=RELAXED),
             left_leg=replace(behind_leg, to=(0.05, -0.8, -0.55), bend=46.0),
             right_leg=replace(ahead_leg, to=(0.02, -0.9, 0.42), bend=24.0, point=30.0),
         ),

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from actions_library.authoring.feet import Plant, Via, other_foot, repeated
+from actions_library.authoring.hand_poses import FIST, HOLD
 from actions_library.authoring.keys import ArmKey, Key, Place, Turn, both_sides, mirrored
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.pushes import Push, driven
@@ -42,7 +43,7 @@ def _gallop(skeleton: Skeleton, name: str, to: float) -> Clip:
     off, landed, gone = 11.0 / 60, 15.0 / 60, 26.0 / 60
     near, far = 0.095, 0.44  # of a foot from the body's middle; nearer, one would step on the other
     guard = ArmKey(
-        to=(0.10, -0.42, 0.85), bend=108.0, elbow=(0.6, -1.0, -0.3), twist=-20.0, curl=140.0
+        to=(0.10, -0.42, 0.85), bend=108.0, elbow=(0.6, -1.0, -0.3), twist=-20.0, fingers=FIST
     )
     keys = [
         Key(  # the right foot lands below the body
@@ -119,8 +120,12 @@ def run_backward(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=6.0, lean=12.0, tilt=0.0),
             chest=Turn(yaw=-5.0, lean=17.0, tilt=0.0),
             head=Turn(yaw=0.0, lean=7.0, tilt=0.0),
-            left_arm=ArmKey(to=(0.16, -0.80, 0.50), bend=92.0, elbow=(0.5, -0.6, -1.0), curl=95.0),
-            right_arm=ArmKey(to=(0.30, -1.0, 0.02), bend=84.0, elbow=(0.5, 0.0, -1.0), curl=95.0),
+            left_arm=ArmKey(
+                to=(0.16, -0.80, 0.50), bend=92.0, elbow=(0.5, -0.6, -1.0), fingers=HOLD
+            ),
+            right_arm=ArmKey(
+                to=(0.30, -1.0, 0.02), bend=84.0, elbow=(0.5, 0.0, -1.0), fingers=HOLD
+            ),
         ),
         Key(
             0.18,

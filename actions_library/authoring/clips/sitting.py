@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from actions_library.authoring.hand_poses import FLAT, RELAXED
 from actions_library.authoring.keys import ArmKey, Hand, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import (
@@ -15,7 +16,7 @@ from actions_library.authoring.stance import (
 from smd.character.clip import Clip
 from smd.character.skeleton import Skeleton
 
-_ON_KNEES = ArmKey(to=(0.02, -0.46, 1.0), bend=40.0, elbow=(1.0, -0.4, -0.5), curl=35.0)
+_ON_KNEES = ArmKey(to=(0.02, -0.46, 1.0), bend=40.0, elbow=(1.0, -0.4, -0.5), fingers=RELAXED)
 
 SEAT = Key(
     0.0,
@@ -32,7 +33,7 @@ SEAT = Key(
 def crouch(skeleton: Skeleton) -> Clip:
     """Crouch low over the feet, look about, and come up again."""
     duration = 2.40
-    low = ArmKey(to=(0.10, -0.62, 0.85), bend=62.0, elbow=(1.0, -0.4, -0.5), curl=40.0)
+    low = ArmKey(to=(0.10, -0.62, 0.85), bend=62.0, elbow=(1.0, -0.4, -0.5), fingers=RELAXED)
     keys = [
         STAND,
         Key(
@@ -86,7 +87,7 @@ def crouch(skeleton: Skeleton) -> Clip:
 def sit_down(skeleton: Skeleton) -> Clip:
     """Sit down on the ground: squat, a hand behind, the seat down, hands on the knees."""
     duration = 2.30
-    behind = ArmKey(to=(0.60, -0.80, -0.30), bend=14.0, follow=0.0, flex=-30.0, curl=8.0)
+    behind = ArmKey(to=(0.60, -0.80, -0.30), bend=14.0, follow=0.0, flex=-30.0, fingers=FLAT)
     keys = [
         STAND,
         Key(  # looks where
@@ -172,7 +173,7 @@ def stand_up(skeleton: Skeleton) -> Clip:
     """Stand up from the ground: hands behind push, the mass goes over the feet, then it rises."""
     duration = 2.60
     pushing = ArmKey(
-        to=(0.50, -0.70, -0.50), bend=20.0, elbow=(0.5, 0.2, -1.0), flex=-50.0, curl=8.0
+        to=(0.50, -0.70, -0.50), bend=20.0, elbow=(0.5, 0.2, -1.0), flex=-50.0, fingers=FLAT
     )
     prop = Hand((0.28, 0.085, -0.56), fingers=(0.75, 0.0, -0.65), palm=(0.0, -1.0, 0.0))
     lifted = replace(prop, place=(0.36, 0.42, -0.28), hold=0.0)

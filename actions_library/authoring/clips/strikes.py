@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Via
+from actions_library.authoring.hand_poses import FIST, FLAT, HOLD, LOOSE
 from actions_library.authoring.keys import ArmKey, Hand, Key, LegKey, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, standing_still
@@ -15,7 +16,7 @@ from smd.character.skeleton import Skeleton
 def punch(skeleton: Skeleton) -> Clip:
     """Return a right-hand straight: from the rear foot through hips and shoulder to the fist."""
     duration = 1.68
-    fist = ArmKey(bend=120.0, elbow=(0.4, -1.0, -0.1), twist=25.0, flex=0.0, curl=150.0)
+    fist = ArmKey(bend=120.0, elbow=(0.4, -1.0, -0.1), twist=25.0, flex=0.0, fingers=FIST)
     straight = replace(
         fist, to=(-0.02, 0.05, 1.0), bend=7.0, elbow=(1.0, -0.6, 0.0), follow=0.0, twist=80.0
     )
@@ -24,8 +25,8 @@ def punch(skeleton: Skeleton) -> Clip:
         Key(  # the weight goes to the rear foot before the front one leaves
             0.19,
             place=Place(left=-0.070, up=-0.045, ahead=-0.015),
-            left_arm=ArmKey(to=(0.22, -0.9, 0.50), bend=70.0, curl=80.0),
-            right_arm=ArmKey(to=(0.22, -0.9, 0.45), bend=75.0, curl=80.0),
+            left_arm=ArmKey(to=(0.22, -0.9, 0.50), bend=70.0, fingers=HOLD),
+            right_arm=ArmKey(to=(0.22, -0.9, 0.45), bend=75.0, fingers=HOLD),
         ),
         Key(  # guard
             0.41,
@@ -75,8 +76,8 @@ def punch(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-12.0, lean=6.0),
             chest=Turn(yaw=-6.0, lean=8.0),
             head=Turn(yaw=-2.0, lean=8.0),
-            left_arm=replace(fist, to=(0.02, -0.60, 0.9), bend=88.0, curl=100.0),
-            right_arm=replace(fist, to=(-0.02, -0.60, 0.8), bend=96.0, curl=100.0),
+            left_arm=replace(fist, to=(0.02, -0.60, 0.9), bend=88.0, fingers=HOLD),
+            right_arm=replace(fist, to=(-0.02, -0.60, 0.8), bend=96.0, fingers=HOLD),
         ),
         at(duration, STAND),
     ]
@@ -126,7 +127,7 @@ def kick(skeleton: Skeleton) -> Clip:
     """Return a front kick with the right leg: knee up, foot out, foot back, down."""
     duration, off, landed = 1.76, 0.42, 1.34
     guard = ArmKey(
-        to=(0.10, -0.30, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=25.0, curl=140.0
+        to=(0.10, -0.30, 1.0), bend=104.0, elbow=(0.5, -1.0, -0.2), twist=25.0, fingers=FIST
     )
     low_guard = replace(guard, to=(0.30, -0.75, 0.35), bend=78.0)
     chambered = LegKey(to=(0.06, -0.50, 0.55), bend=118.0, point=-6.0)
@@ -188,8 +189,8 @@ def kick(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=-3.0, lean=3.0, tilt=1.0),
             chest=Turn(yaw=-2.0, lean=4.0),
             head=Turn(yaw=0.0, lean=5.0),
-            left_arm=ArmKey(to=(0.20, -1.0, 0.26), bend=42.0, curl=60.0),
-            right_arm=ArmKey(to=(0.20, -1.0, 0.28), bend=46.0, curl=60.0),
+            left_arm=ArmKey(to=(0.20, -1.0, 0.26), bend=42.0, fingers=LOOSE),
+            right_arm=ArmKey(to=(0.20, -1.0, 0.28), bend=46.0, fingers=LOOSE),
         ),
         at(duration, STAND),
     ]
@@ -211,7 +212,7 @@ def kick(skeleton: Skeleton) -> Clip:
 def push(skeleton: Skeleton) -> Clip:
     """Return a shove with both hands: palms to something heavy, then the whole body behind it."""
     duration = 2.40
-    arm = ArmKey(to=(0.12, -0.10, 1.0), bend=104.0, elbow=(0.8, -1.0, -0.2), curl=10.0)
+    arm = ArmKey(to=(0.12, -0.10, 1.0), bend=104.0, elbow=(0.8, -1.0, -0.2), fingers=FLAT)
 
     def palm(up: float, ahead: float, hold: float = 1.0) -> Hand:
         return Hand((0.17, up, ahead), fingers=(-0.15, 1.0, -0.25), palm=(0.0, 0.2, 1.0), hold=hold)
@@ -329,8 +330,8 @@ def push(skeleton: Skeleton) -> Clip:
 def slash(skeleton: Skeleton) -> Clip:
     """Return a sword's cut from high on the right to low on the left, with a step."""
     duration = 1.80
-    grip = ArmKey(elbow=(1.0, -0.4, -0.4), twist=40.0, flex=0.0, curl=150.0)
-    balance = ArmKey(to=(0.45, -0.55, 0.35), bend=60.0, elbow=(0.7, -0.4, -0.8), curl=60.0)
+    grip = ArmKey(elbow=(1.0, -0.4, -0.4), twist=40.0, flex=0.0, fingers=HOLD)
+    balance = ArmKey(to=(0.45, -0.55, 0.35), bend=60.0, elbow=(0.7, -0.4, -0.8), fingers=LOOSE)
     keys = [
         STAND,
         Key(
@@ -386,7 +387,7 @@ def slash(skeleton: Skeleton) -> Clip:
             chest=Turn(yaw=8.0, lean=9.0),
             head=Turn(yaw=1.0, lean=7.0),
             left_arm=ArmKey(to=(0.26, -1.0, 0.12), bend=30.0),
-            right_arm=replace(grip, to=(0.05, -0.85, 0.55), bend=42.0, curl=90.0),
+            right_arm=replace(grip, to=(0.05, -0.85, 0.55), bend=42.0, fingers=HOLD),
         ),
         at(duration, STAND),
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Via
+from actions_library.authoring.hand_poses import HOLD, LOOSE, POINT, RELAXED
 from actions_library.authoring.keys import ArmKey, Hand, Key, Place, Turn, at
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, standing_still
@@ -25,7 +26,7 @@ def throw(skeleton: Skeleton) -> Clip:
             chest=Turn(yaw=-18.0, lean=4.0),
             head=Turn(yaw=-2.0, lean=6.0),
             left_arm=ArmKey(to=(0.0, -0.9, 0.7), bend=60.0),
-            right_arm=ArmKey(to=(0.02, -0.9, 0.55), bend=75.0, curl=80.0),
+            right_arm=ArmKey(to=(0.02, -0.9, 0.55), bend=75.0, fingers=HOLD),
         ),
         Key(  # wound up: the side to the target, the weight on the rear leg
             0.66,
@@ -39,10 +40,10 @@ def throw(skeleton: Skeleton) -> Clip:
                 elbow=(0.6, -1.0, 0.0),
                 follow=0.0,
                 twist=40.0,
-                curl=20.0,
+                fingers=POINT,
             ),
             right_arm=ArmKey(
-                to=(1.0, -0.35, -0.35), bend=42.0, elbow=(0.2, -0.4, -1.0), twist=20.0, curl=80.0
+                to=(1.0, -0.35, -0.35), bend=42.0, elbow=(0.2, -0.4, -1.0), twist=20.0, fingers=HOLD
             ),
         ),
         Key(  # the front foot lands, the hips open, the hand stays behind
@@ -57,7 +58,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 elbow=(0.6, -1.0, 0.0),
                 follow=0.0,
                 twist=40.0,
-                curl=20.0,
+                fingers=RELAXED,
             ),
             right_arm=ArmKey(
                 to=(0.75, 0.62, -0.55),
@@ -65,7 +66,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 elbow=(1.0, -0.35, 0.1),
                 twist=0.0,
                 flex=-30.0,
-                curl=80.0,
+                fingers=HOLD,
             ),
         ),
         Key(  # the elbow leads
@@ -76,7 +77,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 elbow=(1.0, -0.3, 0.2),
                 twist=15.0,
                 flex=-20.0,
-                curl=80.0,
+                fingers=HOLD,
             ),
         ),
         Key(  # the hand is released a little after its key
@@ -87,7 +88,7 @@ def throw(skeleton: Skeleton) -> Clip:
                 elbow=(1.0, -0.2, 0.2),
                 twist=30.0,
                 flex=10.0,
-                curl=25.0,
+                fingers=RELAXED,
             ),
         ),
         Key(  # release: high, ahead of the head
@@ -96,7 +97,9 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=14.0, lean=10.0, tilt=-2.0),
             chest=Turn(yaw=24.0, lean=16.0, tilt=-10.0),
             head=Turn(yaw=0.0, lean=8.0, tilt=-4.0),
-            left_arm=ArmKey(to=(0.55, -0.35, 0.35), bend=85.0, elbow=(0.8, -0.3, -1.0), curl=45.0),
+            left_arm=ArmKey(
+                to=(0.55, -0.35, 0.35), bend=85.0, elbow=(0.8, -0.3, -1.0), fingers=LOOSE
+            ),
         ),
         Key(  # the arm runs out across the body
             1.24,
@@ -104,14 +107,16 @@ def throw(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=34.0, lean=22.0, tilt=-2.0),
             chest=Turn(yaw=58.0, lean=38.0, tilt=-6.0),
             head=Turn(yaw=8.0, lean=12.0, tilt=-4.0),
-            left_arm=ArmKey(to=(0.50, -0.70, -0.45), bend=72.0, elbow=(0.5, 0.2, -1.0), curl=45.0),
+            left_arm=ArmKey(
+                to=(0.50, -0.70, -0.45), bend=72.0, elbow=(0.5, 0.2, -1.0), fingers=LOOSE
+            ),
             right_arm=ArmKey(
                 to=(-0.45, -0.80, 0.75),
                 bend=18.0,
                 elbow=(1.0, 0.1, -0.2),
                 twist=55.0,
                 flex=22.0,
-                curl=25.0,
+                fingers=RELAXED,
             ),
         ),
         Key(
@@ -186,9 +191,9 @@ def throw(skeleton: Skeleton) -> Clip:
 def pick_up(skeleton: Skeleton) -> Clip:
     """Bend the knees, take something from the ground with the right hand, and lift it."""
     duration = 2.90
-    arm = ArmKey(to=(0.02, -0.9, 0.7), bend=30.0, elbow=(0.9, 0.1, -1.0), curl=20.0)
-    held = replace(arm, to=(0.05, -0.62, 0.75), bend=84.0, curl=95.0)
-    on_knee = ArmKey(to=(0.20, -0.80, 0.75), bend=44.0, elbow=(1.0, 0.0, -0.8), curl=25.0)
+    arm = ArmKey(to=(0.02, -0.9, 0.7), bend=30.0, elbow=(0.9, 0.1, -1.0), fingers=RELAXED)
+    held = replace(arm, to=(0.05, -0.62, 0.75), bend=84.0, fingers=HOLD)
+    on_knee = ArmKey(to=(0.20, -0.80, 0.75), bend=44.0, elbow=(1.0, 0.0, -0.8), fingers=RELAXED)
     grasp = Hand((0.06, 0.190, 0.29), fingers=(-0.05, -0.9, 0.5), palm=(-0.6, -0.35, -0.6))
     keys = [
         STAND,
@@ -227,7 +232,7 @@ def pick_up(skeleton: Skeleton) -> Clip:
             hips=Turn(yaw=6.0, lean=48.0),
             chest=Turn(yaw=14.0, lean=76.0, tilt=4.0),
             head=Turn(yaw=-2.0, lean=66.0),
-            right_arm=replace(arm, curl=95.0),
+            right_arm=replace(arm, fingers=HOLD),
             right_hand=grasp,
         ),
         Key(1.62, right_hand=replace(grasp, place=(0.08, 0.44, 0.37), hold=0.9)),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from actions_library.authoring.feet import OnBall, Plant, Via, other_foot
+from actions_library.authoring.hand_poses import RELAXED
 from actions_library.authoring.keys import ArmKey, Key, LegKey, Place, Turn, at, carried, mirrored
 from actions_library.authoring.posing import make_clip
 from actions_library.authoring.stance import LEFT_STANCE, RIGHT_STANCE, STAND, moved_in_one_go
@@ -123,8 +124,8 @@ def _around(plant: Plant) -> Plant:
 def spin(skeleton: Skeleton) -> Clip:
     """Return a whole turn to the left on the ball of the left foot, the right one at its knee."""
     duration, off, landed = 1.90, 0.52, 1.34
-    gathered = ArmKey(to=(-0.10, -0.55, 0.80), bend=84.0, elbow=(1.0, -0.2, 0.1), curl=30.0)
-    opened = ArmKey(to=(1.0, -0.22, 0.35), bend=24.0, elbow=(0.2, -0.8, -0.6), curl=18.0)
+    gathered = ArmKey(to=(-0.10, -0.55, 0.80), bend=84.0, elbow=(1.0, -0.2, 0.1), fingers=RELAXED)
+    opened = ArmKey(to=(1.0, -0.22, 0.35), bend=24.0, elbow=(0.2, -0.8, -0.6), fingers=RELAXED)
     drawn = LegKey(to=(0.30, -0.84, 0.14), bend=96.0, knee=(0.8, 0.0, 1.0), point=56.0)
     keys = [
         STAND,

@@ -5,6 +5,7 @@ import pytest
 from actions_library.authoring.keys import (
     PARTS,
     ArmKey,
+    Gaze,
     Key,
     Place,
     Turn,
@@ -62,4 +63,9 @@ def test_a_part_runs_through_its_own_keys_only():
     keys = [Key(0.0, place=Place(up=1.0)), POSE, Key(1.0, place=Place(up=3.0))]
     curve = part_curve(keys, "hips", 61, 60.0, cyclic=False)
     assert (curve == [10.0, 20.0, 30.0]).all()
-    assert len(PARTS) == 10
+    assert len(PARTS) == 11
+
+
+def test_eyes_look_the_other_way_in_a_mirrored_key():
+    assert mirrored(Key(0.0, gaze=Gaze(left=12.0, up=3.0))).gaze == Gaze(left=-12.0, up=3.0)
+    assert mirrored(Key(0.0)).gaze is None

@@ -38,10 +38,10 @@ def danced(rotation=ROTATION, translation=TRANSLATION) -> Actor:
     [
         ({"rate_hz": 0.0}, "rate_hz: expected a positive number, got 0.0"),
         ({"rate_hz": float("nan")}, "rate_hz: expected a positive number, got nan"),
-        ({"rotation": ROTATION[:, :5]}, r"rotation_xyzw: expected shape \(any, 27, 4\)"),
+        ({"rotation": ROTATION[:, :5]}, r"rotation_xyzw: expected shape \(any, 55, 4\)"),
         ({"rotation": ROTATION[:0], "translation": TRANSLATION[:0]}, "at least one frame"),
         ({"rotation": 2.0 * ROTATION}, "rotation_xyzw: expected unit length"),
-        ({"translation": TRANSLATION[:5]}, r"translation_m: expected shape \(12, 27, 3\)"),
+        ({"translation": TRANSLATION[:5]}, r"translation_m: expected shape \(12, 55, 3\)"),
         ({"stands": STANDS[:5]}, r"stands: expected shape \(12, 2\), got \(5, 2\)"),
         ({"stands": STANDS[:, :1]}, r"stands: expected shape \(12, 2\), got \(12, 1\)"),
         ({"pivot_rad": np.full((12, 2), np.nan)}, "pivot_rad: expected finite numbers"),

@@ -16,11 +16,20 @@ from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses
 from smd.doodle import Doodle
 from smd.errors import TransferError
-from smd.geometry.rotations import inverse, multiply, rotate, rotvec_from_quaternion
+from smd.geometry.rotations import inverse, multiply, rotate
 from tests.naive.puppet import performance, puppet
 
 SKELETON = puppet().skeleton
-FINGERS = [SKELETON.index(f"right_{name}") for name in ("thumb", "fingers")]
+FINGERS = [
+    SKELETON.index(joint)
+    for joint in SKELETON.joints
+    if joint.startswith("right_")
+    and any(name in joint for name in ("thumb", "index", "middle", "ring", "little"))
+]
+THUMB, KNUCKLES, TIP = (
+    SKELETON.index(f"right_{name}")
+    for name in ("thumb_metacarpal", "middle_proximal", "middle_distal")
+)
 HAND = SKELETON.index("right_hand")
 STORY = Path(__file__).parents[3] / "recordings" / "postman.csv"
 
@@ -42,7 +51,7 @@ def test_the_prop_stays_in_the_hand(actor: Actor) -> None:
     turned = multiply(inverse(world[:, HAND]), held.held.orientation_xyzw)
     np.testing.assert_allclose(in_hand_m, in_hand_m[:1].repeat(len(in_hand_m), 0), atol=1e-12)
     np.testing.assert_allclose(np.abs(np.sum(turned * turned[:1], axis=-1)), 1.0, atol=1e-12)
-    knuckles_m = np.linalg.norm(SKELETON.rest_translation_m[FINGERS[1]])
+    knuckles_m = np.linalg.norm(SKELETON.rest_translation_m[KNUCKLES])
     assert np.linalg.norm(in_hand_m[0]) < knuckles_m
 
 
@@ -57,7 +66,7 @@ def test_it_lies_across_the_palm_with_its_front_at_the_thumb() -> None:
         rotate(turned, np.array([0.0, 0.0, 1.0])),
         rotate(turned, np.array([0.0, 1.0, 0.0])),
     )
-    thumb, fingers = (place[joint] - place[HAND] for joint in FINGERS)
+    thumb, fingers = (place[joint] - place[HAND] for joint in (THUMB, KNUCKLES))
     assert front @ thumb > 0.0
     assert front @ fingers == pytest.approx(0.0, abs=1e-9)
     assert top @ fingers == pytest.approx(np.linalg.norm(fingers))
@@ -68,12 +77,25 @@ def test_it_lies_across_the_palm_with_its_front_at_the_thumb() -> None:
 
 def test_fingers_close_as_in_the_fist_of_the_punch(library: Library) -> None:
     clip = library.clip("punch")
-    fist = clip.rotation_xyzw[clip.stage_end_frames[2]]
-    grip = grip_of(library.character.skeleton)
+    skeleton = library.character.skeleton
+    fist = clip.rotation_xyzw[clip.stage_end_frames[2]].copy()
+    grip = grip_of(skeleton)
     assert grip is not None
-    for joint in FINGERS:
-        apart = rotvec_from_quaternion(multiply(inverse(fist[joint]), grip.closed_xyzw[joint]))
-        assert np.degrees(np.linalg.norm(apart)) < 20.0
+    closed = fist.copy()
+    for joint, turned in grip.closed_xyzw.items():
+        closed[joint] = turned
+    tips = []
+    for pose in (fist, closed):
+        world, _ = forward_kinematics(skeleton, pose, skeleton.rest_translation_m)
+        bone = skeleton.rest_translation_m[TIP]
+        tips.append(rotate(inverse(world[HAND]), rotate(world[TIP], bone)))
+    along = skeleton.rest_translation_m[KNUCKLES]
+    between = [
+        np.degrees(np.arccos(a @ b / np.linalg.norm(a) / np.linalg.norm(b)))
+        for a, b in ((tips[0], along), (tips[1], along), tips)
+    ]
+    assert min(between[:2]) > 80.0  # the last bones do not point along the hand
+    assert between[2] < 60.0
 
 
 def test_only_the_fingers_of_one_hand_move(actor: Actor) -> None:
@@ -87,7 +109,7 @@ def test_only_the_fingers_of_one_hand_move(actor: Actor) -> None:
 def test_nothing_is_held_without_a_prop_or_a_hand(actor: Actor) -> None:
     undrawn = replace(actor, doodles=())
     assert with_props_held([undrawn])[0].held is None
-    kept = [i for i in range(len(SKELETON)) if "thumb" not in SKELETON.joints[i]]
+    kept = [i for i in range(len(SKELETON)) if i not in FINGERS or i == KNUCKLES]
     mitten = replace(
         SKELETON,
         joints=tuple(SKELETON.joints[i] for i in kept),

@@ -3,17 +3,25 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from smd.acting.transitions import carried_over
-from smd.character.poses import Poses
+from smd.acting.transitions import (
+    TRANSITION_S,
+    TURNING_RAD_S,
+    carried_over,
+    transition_s,
+)
+from smd.character.poses import Poses, sampled
+from smd.character.roles import without_digits
 from smd.geometry.rotations import (
     inverse,
     multiply,
+    quaternion_about,
     quaternion_from_rotvec,
     rotvec_from_quaternion,
 )
 
 STEP_S = 1e-3
 OVER_S = 0.25
+FINGERS = ("thumb", "index", "middle", "ring", "little")
 
 
 def motion(seed: int, time_s: np.ndarray) -> Poses:
@@ -66,3 +74,20 @@ def test_moves_that_meet_are_left_alone():
     done = carried_over(*same, into, passed_s, over_s=OVER_S, step_s=STEP_S)
     assert np.abs(turned(into.rotation_xyzw, done.rotation_xyzw)).max() < 1e-9
     assert done.translation_m == pytest.approx(into.translation_m)
+
+
+def test_fingers_do_not_hold_a_transition_up(library):
+    skeleton = library.character.skeleton
+    slow = {skeleton.joints[joint] for joint in without_digits(skeleton)}
+    quick = set(skeleton.joints) - slow
+    assert {"left_hand", "right_foot", "head", "hips", "root"} <= slow
+    assert {"left_thumb_metacarpal", "right_middle_proximal", "left_toes"} <= quick
+    assert all("toes" in name or any(f in name for f in FINGERS) for name in quick)
+    clip = library.clip("idle")
+    pose = sampled(clip, np.zeros(2))
+    turned = pose.rotation_xyzw.copy()
+    finger = skeleton.index("right_middle_proximal")
+    turned[:, finger] = multiply(turned[:, finger], quaternion_about([0.0, 0.0, 1.0], 2.0))
+    fist = Poses(turned, pose.translation_m)
+    assert transition_s(pose, fist) == pytest.approx(2.0 / TURNING_RAD_S)
+    assert transition_s(pose, fist, without_digits(skeleton)) == TRANSITION_S
