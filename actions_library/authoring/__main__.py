@@ -8,6 +8,7 @@ from pathlib import Path
 
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
+from actions_library.authoring.caterpillar.library import write_caterpillar
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.dog.library import write_dog
 from actions_library.authoring.examples import with_examples
@@ -35,6 +36,7 @@ def write_humanoid(folder: Path) -> Library:
 CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
     "humanoid": write_humanoid,
     "dog": write_dog,
+    "caterpillar": write_caterpillar,
 }
 """What writes each character's library."""
 
