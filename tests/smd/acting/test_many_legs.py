@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import smd
-from actions_library.authoring.caterpillar.skeleton import PAIRS
 from actions_library.folder import load_library
+from benchmarks.crawls import footholds, on_a_bend
 from smd.acting.act import grounded_actor
 from smd.acting.grounding import MOST_SINK
 from smd.acting.legs import feet_of, legs_of
@@ -17,12 +16,9 @@ from smd.acting.move import Footwork
 from smd.acting.stepping import stepping
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses
-from smd.doodle import Recording
-from smd.score import Part, Phrase, Score
-from smd.synthetic.curves import circle
+from smd.character.quality import MOST_SLIDE_M_S
 
 SHIPPED = Path(__file__).parents[3] / "actions_library"
-HOLDS_M_S = 0.02
 
 
 def stood(name, *, aside_m=0.0):
@@ -72,33 +68,11 @@ def test_many_legs_step_in_groups_and_most_of_them_stand():
     assert ((lift_m > 0.0) <= ~stands).all()
 
 
+@pytest.mark.parametrize("action", ["walk", "loop"])
 @pytest.mark.parametrize("radius_m", [0.6, 1.2])
-def test_a_caterpillar_on_a_bend_holds_the_ground_with_its_feet(radius_m):
+def test_a_caterpillar_on_a_bend_holds_the_ground_with_its_feet(action, radius_m):
     library = load_library(SHIPPED / "caterpillar")
-    clip = library.clip("walk")
-    speed_m_s, lasts_s = clip.travel_m / clip.duration_s, 6.0
-    scale = library.character.height_m / 0.175
-    doodle = circle(
-        radius_m=radius_m / scale,
-        duration_s=lasts_s,
-        turns=speed_m_s * lasts_s / (2.0 * np.pi * radius_m),
-    )
-    score = Score((Part(doodle.device, (Phrase("walk", 0.2, lasts_s - 0.2),)),))
-    (actor,) = smd.animate(score, Recording((doodle,)), library, rate_hz=60.0).actors
-    skeleton = actor.character.skeleton
-    place = forward_kinematics(skeleton, *actor.poses)[1]
-    still, down = [], []
-    for k in PAIRS:
-        for side in ("left", "right"):
-            j = skeleton.index(f"{side}_foot_{k}")
-            up = place[:, j, 1] - skeleton.world_from_bind[j, 1, 3]
-            assert up.min() > -0.005
-            low = np.lib.stride_tricks.sliding_window_view(up < 5e-4, 6).all(axis=1)
-            on = np.pad(low, 2)  # of each step: it has come down, and does not leave yet
-            step = np.linalg.norm(np.diff(place[:, j][:, [0, 2]], axis=0), axis=1) * 60.0
-            still.append(step[on])
-            down.append(on.mean())
-    assert min(down) > 0.4  # each foot is on the ground for most of the time that its clip says
-    speeds = np.concatenate(still)
-    assert speeds.mean() < 0.25 * HOLDS_M_S
-    assert np.mean(speeds > HOLDS_M_S) < 0.05
+    speed, on, least = footholds(on_a_bend(library, action, radius_m))
+    assert on.mean(axis=0).min() > 0.4  # each foot, by where it is
+    assert speed[on].max() < MOST_SLIDE_M_S
+    assert least.min() > -0.001
