@@ -23,7 +23,7 @@ import numpy as np
 from smd.acting.performance import Actor
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.poses import Poses
-from smd.character.roles import body_plan
+from smd.character.roles import body_plan, reaches_ground
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
@@ -72,9 +72,6 @@ SMOOTHED_S = 0.14
 MEAN_S = 0.4
 """Smoothing that gives the mean direction of a clip's own head."""
 
-FOOT = 0.2
-"""Height of a joint at rest, as a share of the highest one's, below which it is a foot's."""
-
 _UP = np.array([0.0, 1.0, 0.0])
 _FRONT = np.array([0.0, 0.0, 1.0])
 
@@ -101,20 +98,10 @@ def neck_of(skeleton: Skeleton) -> Neck | None:
     first = plan.spine.index(plan.chest)
     last = plan.spine.index(plan.head)
     # The segments of a caterpillar are its spine up to the head: feet hang from most of them.
-    first += sum(_holds_feet(skeleton, at_rest[1], plan.spine[first + 1 : last + 1]))
+    held = reaches_ground(skeleton.parents.tolist(), at_rest[1])
+    first += sum(bool(held[joint]) for joint in plan.spine[first + 1 : last])
     joints = plan.spine[first + 1 : last + 1]
     return Neck(plan.spine[first], joints) if joints else None
-
-
-def _holds_feet(skeleton: Skeleton, place_m: FloatArray, spine: Sequence[int]) -> list[bool]:
-    """Return of each joint of a spine but its head whether it, or one after it, holds feet."""
-    height_m = place_m[:, 1] - place_m[:, 1].min()
-    foot = height_m < FOOT * height_m.max()
-    held = np.zeros(len(skeleton), dtype=bool)
-    for joint in range(len(skeleton) - 1, 0, -1):
-        if held[joint] or foot[joint]:
-            held[skeleton.parents[joint]] = True
-    return [bool(held[joint]) for joint in spine[:-1]]
 
 
 def with_gaze(actors: Sequence[Actor], rate_hz: float) -> tuple[Actor, ...]:

@@ -19,7 +19,7 @@ import numpy as np
 
 from smd.character.skeleton import Role
 from smd.errors import CharacterError
-from smd.geometry.arrays import FloatArray
+from smd.geometry.arrays import BoolArray, FloatArray
 from smd.geometry.rotations import inverse, normalized, quaternion_between, rotate
 
 Side = Literal["left", "right"]
@@ -145,6 +145,16 @@ def body_plan(
         front=_triple(rotate(inverse(ours_from_given), plan.front)),
         up=_triple(normalized(upward)),
     )
+
+
+def reaches_ground(parents: Sequence[int], rest_position_m: FloatArray) -> BoolArray:
+    """Return of each joint ``(j,)`` whether it, or what hangs from it, is at the ground at rest."""
+    height_m = rest_position_m[:, 1] - rest_position_m[:, 1].min()
+    reaches = np.asarray(height_m < GROUNDED * height_m.max())
+    for joint in range(len(reaches) - 1, 0, -1):  # parents come first
+        if reaches[joint] and parents[joint] >= 0:
+            reaches[parents[joint]] = True
+    return reaches
 
 
 def _triple(vector: FloatArray) -> tuple[float, float, float]:
