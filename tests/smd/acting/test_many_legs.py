@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import smd
 from actions_library.folder import load_library
 from benchmarks.crawls import footholds, on_a_bend
 from smd.acting.act import grounded_actor
+from smd.acting.flight import DEEPEST
 from smd.acting.grounding import MOST_SINK
 from smd.acting.legs import feet_of, legs_of
 from smd.acting.move import Footwork
@@ -76,3 +78,19 @@ def test_a_caterpillar_on_a_bend_holds_the_ground_with_its_feet(action, radius_m
     assert on.mean(axis=0).min() > 0.4  # each foot, by where it is
     assert speed[on].max() < MOST_SLIDE_M_S
     assert least.min() > -0.001
+
+
+def test_a_low_body_does_not_crouch_into_the_ground_to_jump():
+    library = load_library(SHIPPED / "caterpillar")
+    clip = library.clip("jump")
+    recording = smd.read_recording(SHIPPED.parent / "recordings" / "postman.csv")
+    score = smd.parse(recording, library)  # it ends with a jump
+    (actor,) = smd.animate(score, recording, library, rate_hz=60.0).actors
+    assert "jump" in [phrase.action for phrase in actor.phrases]
+    trunk = clip.skeleton.index("trunk")
+    lowest_m, own_m = (
+        forward_kinematics(clip.skeleton, *poses)[1][:, trunk, 1].min()
+        for poses in (actor.poses, (clip.rotation_xyzw, clip.translation_m))
+    )
+    height_m = clip.skeleton.world_from_bind[trunk, 1, 3]
+    assert lowest_m > own_m - 1.5 * DEEPEST * height_m
