@@ -8,6 +8,7 @@ from pathlib import Path
 
 from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
+from actions_library.authoring.caterpillar.library import write_caterpillar
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.clips.face_actions import FACE_ACTIONS, face_clips
 from actions_library.authoring.dog.library import write_dog
@@ -52,6 +53,7 @@ CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
     "humanoid": write_humanoid,
     "faces": write_faces,
     "dog": write_dog,
+    "caterpillar": write_caterpillar,
 }
 """What writes each character's library."""
 

@@ -25,6 +25,12 @@ class Pose:
         self.rotation[:, j] = world_xyzw
         self.position[:, j] = self.position[:, parent] + rotate(self.rotation[:, parent], bone)
 
+    def put(self, joint: str, world_xyzw: FloatArray, world_m: FloatArray) -> None:
+        """Give a joint its rotation and its place in the world, whatever its bone's length."""
+        j = self.skeleton.index(joint)
+        self.rotation[:, j] = world_xyzw
+        self.position[:, j] = world_m
+
     def turn(self, joint: str, local_xyzw: FloatArray) -> None:
         """Give a joint its rotation from its parent's."""
         self.set(joint, multiply(self.parent_rotation(joint), local_xyzw))

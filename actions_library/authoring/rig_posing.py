@@ -17,7 +17,13 @@ from actions_library.authoring.waves import Wave
 from smd.character.clip import Clip
 from smd.character.tracks import Tracks
 from smd.geometry.arrays import FloatArray
-from smd.geometry.rotations import quaternion_about, quaternion_from_euler, rotate, slerp
+from smd.geometry.rotations import (
+    normalized,
+    quaternion_about,
+    quaternion_from_euler,
+    rotate,
+    slerp,
+)
 
 MOST_SHORT_M = 0.004
 """How far a planted foot may be from where it is put before a clip is refused."""
@@ -31,6 +37,7 @@ def make_rig_clip(
     *,
     plants: Mapping[str, Sequence[Plant]] | None = None,
     waves: Sequence[Wave] = (),
+    laid: Mapping[str, FloatArray] | None = None,
     stage_ends_s: Sequence[float],
     cyclic: bool = False,
 ) -> Clip:
@@ -48,6 +55,10 @@ def make_rig_clip(
         Its length is the clip's. A cyclic clip's ``place`` is carried along by it.
     plants
         Each leg's, by its name, in the clip's world, covering the clip's time.
+    laid
+        Places that a chain's joints are put at, whatever their bones' lengths, and one that its
+        last joint points to: ``(frames, joints + 1, 3)`` in the clip's world. It has neither keys
+        nor waves.
     stage_ends_s
         When each of the five stages ends; the last is the clip's end.
 
@@ -56,12 +67,13 @@ def make_rig_clip(
     ValueError
         If a name is none of the rig's parts, or a planted foot is out of its leg's reach.
     """
-    plants = plants or {}
+    plants, laid = plants or {}, laid or {}
     chains = {chain.name: chain for chain in rig.chains}
     legs = {leg.name: leg for leg in rig.legs}
     _check_names("keys", parts_named(keys), (PLACE, BODY, *chains, *legs, *rig.tracks))
     _check_names("plants", plants, legs)
     _check_names("waves", [wave.chain for wave in waves], chains)
+    _check_names("laid", laid, chains)
     frames = len(ground.yaw_rad)
     time_s = np.arange(frames) / RATE_HZ
     pose = Pose(rig.skeleton, frames)
@@ -74,7 +86,10 @@ def make_rig_clip(
     posed = {"", rig.skeleton.joints[0], rig.body}
     for chain in rig.chains:
         _rest_above(pose, chain.joints[0], posed)
-        _pose_chain(pose, chain, _chain_turns(chain, keys, waves, frames, cyclic=cyclic))
+        if chain.name in laid:
+            _lay_chain(pose, chain, laid[chain.name])
+        else:
+            _pose_chain(pose, chain, _chain_turns(chain, keys, waves, frames, cyclic=cyclic))
         posed.update(chain.joints)
     paths = {
         leg: foot_path(list(plants[leg]), foot_shape(rig.skeleton, legs[leg]), out, time_s)
@@ -174,6 +189,16 @@ def _pose_chain(pose: Pose, chain: Chain, turns_deg: FloatArray) -> None:
             pose.set(joint, slerp(holder, turn, np.full(len(turn), min(gone, 1.0))))
         else:
             pose.turn(joint, turn)
+
+
+def _lay_chain(pose: Pose, chain: Chain, points: FloatArray) -> None:
+    """Put a chain's joints at points, each turned so that its +Z points to the next."""
+    to = normalized(np.diff(points, axis=1))
+    zero = np.zeros(to.shape[:2])
+    angles = np.stack([np.arctan2(to[..., 0], to[..., 2]), -np.arcsin(to[..., 1]), zero], axis=-1)
+    turned = quaternion_from_euler("YXZ", angles)
+    for k, joint in enumerate(chain.joints):
+        pose.put(joint, turned[:, k], points[:, k])
 
 
 def _check_reach(pose: Pose, leg: RigLeg, path: FootPath, clip: str) -> None:

@@ -37,6 +37,12 @@ YIELDING_S = 0.3
 """Time before take-off in which the difference to the clip's velocity is built up, and time after
 landing in which it is absorbed: a higher jump crouches deeper, before and after."""
 
+DEEPEST = 0.2
+"""Most that a body sinks so, as a share of its height; a low one takes less time for it."""
+
+_SINKS = 0.198
+"""Most that `fading` reaches: how deep a body sinks, over its speed and its time."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Height:
@@ -210,6 +216,8 @@ def _flight(move: Move[Playable], height: Height | None, flown: Airborne) -> Fli
     leaving = (off - before) / PACE_S * _slope(body_m[max(first - 2, 0) : first + 1])
     landing = (on - after) / PACE_S * _slope(body_m[last : last + 3][::-1])
     mean = (body_m[last] - body_m[first]) / duration_s
+    gathering_m_s = float(mean + 4.0 * apex_m / duration_s - leaving)
+    yielding_m_s = float(mean - 4.0 * apex_m / duration_s - landing)
     return Flight(
         move=move,
         body_m=body_m,
@@ -219,11 +227,17 @@ def _flight(move: Move[Playable], height: Height | None, flown: Airborne) -> Fli
         to_m=float(body_m[last]),
         apex_m=apex_m,
         own_apex_m=own_apex_m,
-        gathering_m_s=float(mean + 4.0 * apex_m / duration_s - leaving),
-        yielding_m_s=float(mean - 4.0 * apex_m / duration_s - landing),
-        gathering_s=float(max(min(YIELDING_S, take_off_s - move.start_s), 1e-3)),
-        yielding_s=float(max(min(YIELDING_S, move.end_s - landing_s), 1e-3)),
+        gathering_m_s=gathering_m_s,
+        yielding_m_s=yielding_m_s,
+        gathering_s=_sinking_s(gathering_m_s, take_off_s - move.start_s, float(body_m[first])),
+        yielding_s=_sinking_s(yielding_m_s, move.end_s - landing_s, float(body_m[last])),
     )
+
+
+def _sinking_s(speed_m_s: float, room_s: float, height_m: float) -> float:
+    """Return how long a difference in velocity is built up or absorbed on the ground."""
+    deepest_s = DEEPEST * height_m / (_SINKS * max(abs(speed_m_s), 1e-9))
+    return float(max(min(YIELDING_S, room_s, deepest_s), 1e-3))
 
 
 def _slope(value: FloatArray) -> float:

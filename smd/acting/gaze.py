@@ -23,7 +23,7 @@ import numpy as np
 from smd.acting.performance import Actor
 from smd.character.kinematics import joints_in_world, rest_in_world
 from smd.character.poses import Poses
-from smd.character.roles import plan_of
+from smd.character.roles import plan_of, reaches_ground
 from smd.character.skeleton import Skeleton
 from smd.geometry.arrays import FloatArray
 from smd.geometry.easing import gaussian_smoothed, smootherstep
@@ -94,8 +94,13 @@ def neck_of(skeleton: Skeleton) -> Neck | None:
     plan = plan_of(skeleton)
     if plan.head is None or plan.chest not in plan.spine or plan.head not in plan.spine:
         return None
-    joints = plan.spine[plan.spine.index(plan.chest) + 1 : plan.spine.index(plan.head) + 1]
-    return Neck(plan.chest, joints) if joints else None
+    first = plan.spine.index(plan.chest)
+    last = plan.spine.index(plan.head)
+    # The segments of a caterpillar are its spine up to the head: feet hang from most of them.
+    held = reaches_ground(skeleton.parents.tolist(), rest_in_world(skeleton)[1])
+    first += sum(bool(held[joint]) for joint in plan.spine[first + 1 : last])
+    joints = plan.spine[first + 1 : last + 1]
+    return Neck(plan.spine[first], joints) if joints else None
 
 
 def with_gaze(actors: Sequence[Actor], rate_hz: float) -> tuple[Actor, ...]:

@@ -29,6 +29,9 @@ SOFTNESS = 0.004
 MOST_SINK_M = 0.12
 """Most that the pelvis is lowered so that a standing leg reaches its foot."""
 
+MOST_SINK = 0.15
+"""The same as a share of a leg's reach: less where legs are short."""
+
 MOST_BEND_RAD = np.radians(150.0)
 """Of a knee; a contact nearer to the hip than this allows is released."""
 
@@ -212,11 +215,14 @@ def _put(
         np.sqrt(np.maximum(span_m**2 - aside_m**2, 0.0))
         for span_m in (reach_m, leg.limb.span_m(MOST_BEND_RAD))
     )
+    most_m = min(MOST_SINK_M, MOST_SINK * leg.limb.reach_m)
     short_m = np.where(step.stands, np.maximum(above_m - highest_m, 0.0), 0.0)
     room_m = np.where(step.stands, np.maximum(above_m - lowest_m, 0.0), np.inf)
-    able = (short_m <= MOST_SINK_M) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
+    able = (short_m <= most_m) & (np.abs(step.turn_rad) <= MOST_TWIST_RAD)
     able &= np.hypot(aside_m, above_m) >= leg.limb.span_m(MOST_BEND_RAD)
-    return _Foot(leg, foot_q, ankle_m, laid_m, step.stands, able, short_m, room_m)
+    return _Foot(
+        leg, foot_q, ankle_m, laid_m, step.stands, able, np.minimum(short_m, most_m), room_m
+    )
 
 
 def _loosened(offset_m: FloatArray, stands: BoolArray, rate_hz: float) -> FloatArray:

@@ -43,6 +43,10 @@ class Leg:
     left_m: float
 
 
+BENT = 0.03
+"""How far off the line from hip to foot a resting knee is, as a share of its length, where its leg
+counts as bent; people's are at 0.02 and point ahead."""
+
 LOW_AT_REST = 0.3
 """Height at rest, as a share of the body's, below which a joint that touches is a foot: hands that
 crawl touch the ground too."""
@@ -70,8 +74,9 @@ def feet_of(clip: Clip) -> tuple[int, ...]:
 def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
     """Return the legs of the feet that have one: two joints above them, apart from the root.
 
-    The knee is taken to point ahead. The ball is at the foot's first child, the heel on the
-    ground behind the ankle; a foot without a child touches the ground below its joint alone.
+    The knee points where it does at rest, and ahead where the resting leg is straight. The ball is
+    at the foot's first child, the heel on the ground behind the ankle; a foot without a child
+    touches the ground below its joint alone.
     """
     world_q, world_p = rest_in_world(skeleton)
     legs = []
@@ -92,7 +97,9 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
                 upper=upper,
                 lower=lower,
                 foot=foot,
-                limb=limb_of(skeleton, thigh, shin, end, [0.0, 0.0, 1.0]),
+                limb=limb_of(
+                    skeleton, thigh, shin, end, _knee_points(*world_p[[upper, lower, foot]])
+                ),
                 heel_m=rotate(back, heel),
                 ball_m=rotate(back, ball),
                 up=rotate(back, np.array([0.0, 1.0, 0.0])),
@@ -101,6 +108,16 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
             )
         )
     return tuple(legs)
+
+
+def _knee_points(hip_m: FloatArray, knee_m: FloatArray, foot_m: FloatArray) -> FloatArray:
+    """Return where a knee points at rest, across its leg: behind in a dog, outward in an insect."""
+    along = normalized(foot_m - hip_m)
+    out_m = knee_m - hip_m
+    out_m = out_m - (out_m @ along) * along
+    if np.linalg.norm(out_m) > BENT * np.linalg.norm(foot_m - hip_m):
+        return np.asarray(normalized(out_m))
+    return np.array([0.0, 0.0, 1.0])
 
 
 def world_of(

@@ -7,6 +7,8 @@ other.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from smd.geometry.arrays import BoolArray, FloatArray, IntArray
@@ -27,6 +29,9 @@ FAR_TURN_RAD = np.radians(100.0)
 
 STEP_S = 0.25
 """Least duration of a step, where there is time."""
+
+MOST_ALONE = 4
+"""Legs up to which each steps alone; of more, so many groups take turns, spread over the body."""
 
 LIFT_M = 0.045
 """How high a step lifts the foot."""
@@ -78,7 +83,8 @@ def stepping(
             order = np.argsort(-left_m * np.sign(turn), kind="stable")
             order = order[far_m[order] > 0.5 * FAR_M]
             rounds = max(int(np.ceil(abs(turn) / FAR_TURN_RAD)), 1)
-            steps = np.tile(order, rounds)
+            groups = min(len(order), MOST_ALONE)
+            steps = [order[i::groups] for i in range(groups)] * rounds
             edges = _widened(start, end, first + 1, last - 1, len(steps) * STEP_S * rate_hz)
             _take(stands, lift_m, steps, edges)
     return stands, lift_m
@@ -92,12 +98,18 @@ def _widened(start: int, end: int, low: int, high: int, least: float) -> tuple[i
     return start, end
 
 
-def _take(stands: BoolArray, lift_m: FloatArray, steps: IntArray, edges: tuple[int, int]) -> None:
-    """Take the steps one after the other, in place; the feet stand for a frame in between."""
+def _take(
+    stands: BoolArray, lift_m: FloatArray, steps: Sequence[IntArray], edges: tuple[int, int]
+) -> None:
+    """Take the steps of some legs each, one after the other, in place.
+
+    The feet stand for a frame in between.
+    """
     cuts = np.linspace(*edges, len(steps) + 1).round().astype(int)
-    for leg, start, end in zip(steps, cuts[:-1], cuts[1:], strict=True):
+    for legs, start, end in zip(steps, cuts[:-1], cuts[1:], strict=True):
         if end - start < 3:
             continue
         way = np.linspace(0.0, 1.0, end - start + 1)[1:-1]
-        stands[start + 1 : end, leg] = False
-        lift_m[start + 1 : end, leg] = LIFT_M * smootherstep(2.0 * np.minimum(way, 1.0 - way))
+        stands[start + 1 : end, legs] = False
+        lifted_m = LIFT_M * smootherstep(2.0 * np.minimum(way, 1.0 - way))
+        lift_m[start + 1 : end, legs] = lifted_m[:, None]

@@ -21,7 +21,7 @@ import numpy as np
 from smd.character.kinematics import rest_in_world
 from smd.character.skeleton import Role, Skeleton
 from smd.errors import CharacterError
-from smd.geometry.arrays import FloatArray, IntArray
+from smd.geometry.arrays import BoolArray, FloatArray, IntArray
 from smd.geometry.rotations import inverse, normalized, quaternion_between, rotate
 
 Side = Literal["left", "right"]
@@ -174,6 +174,16 @@ def body_plan(
         front=_triple(rotate(inverse(ours_from_given), plan.front)),
         up=_triple(normalized(upward)),
     )
+
+
+def reaches_ground(parents: Sequence[int], rest_position_m: FloatArray) -> BoolArray:
+    """Return of each joint ``(j,)`` whether it, or what hangs from it, is at the ground at rest."""
+    height_m = rest_position_m[:, 1] - rest_position_m[:, 1].min()
+    reaches = np.asarray(height_m < GROUNDED * height_m.max())
+    for joint in range(len(reaches) - 1, 0, -1):  # parents come first
+        if reaches[joint] and parents[joint] >= 0:
+            reaches[parents[joint]] = True
+    return reaches
 
 
 def _triple(vector: FloatArray) -> tuple[float, float, float]:

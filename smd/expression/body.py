@@ -9,7 +9,7 @@ import numpy as np
 from smd.character.clip import Clip
 from smd.character.ik import Limb, limb_of
 from smd.character.kinematics import rest_in_world
-from smd.character.roles import BodyPlan, LimbPlan, plan_of
+from smd.character.roles import BodyPlan, LimbPlan, plan_of, reaches_ground
 from smd.character.skeleton import Skeleton
 from smd.errors import CharacterError
 from smd.geometry.arrays import FloatArray, IntArray
@@ -99,6 +99,13 @@ def body_of(clip: Clip) -> Body:
     legs = {joint for limb in plan.limbs if limb.kind == "leg" for joint in limb.chain}
     lower = legs | set(plan.root)
     every = tuple(j for j in range(1, len(skeleton)) if j not in plan.root[:-1])
+    reaches = reaches_ground(skeleton.parents.tolist(), place)
+    if not legs and reaches[list(after)].any():
+        # Feet hang from the trunk up to the head, as a caterpillar's: bent more, it is in the
+        # ground, and the head that is kept level sways.
+        to_head = plan.spine[: plan.spine.index(plan.head) + 1] if plan.head in plan.spine else ()
+        every = tuple(j for j in every if not reaches[j] and j not in to_head)
+        trunk, after = (), ()
     arms = (_arm(skeleton, limb) for limb in plan.limbs if limb.kind == "arm")
     return Body(
         spine=trunk,

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from actions_library.folder import load_library
 from actions_library.library import Library
 from smd.acting.gaze import BEHIND_RAD, MOST_YAW_RAD, NEAR, SMOOTHED_S, neck_of, with_gaze
 from smd.acting.performance import Actor
@@ -21,6 +23,8 @@ from smd.geometry.rotations import (
     rotvec_from_quaternion,
 )
 from tests.naive.puppet import puppet
+
+SHIPPED = Path(__file__).parents[3] / "actions_library"
 
 RATE_HZ, COUNT = 24.0, 96
 PUPPET = puppet()
@@ -206,3 +210,19 @@ def test_a_character_without_a_head_is_left_as_it_is(library: Library) -> None:
         roles=tuple(SKELETON.roles[i] for i in legs),
     )
     assert neck_of(skeleton) is None
+
+
+def test_segments_that_hold_feet_are_no_neck() -> None:
+    # a caterpillar's spine is its body: turning it to look would drag the feet along
+    skeleton = load_library(SHIPPED / "caterpillar").character.skeleton
+    neck = neck_of(skeleton)
+    assert neck is not None
+    assert [skeleton.joints[joint] for joint in (neck.chest, *neck.joints)] == [
+        "segment_12",
+        "head",
+    ]
+    for name in ("humanoid", "dog"):
+        skeleton = load_library(SHIPPED / name).character.skeleton
+        neck = neck_of(skeleton)
+        assert neck is not None
+        assert "chest" in skeleton.joints[neck.chest]

@@ -1,0 +1,58 @@
+"""The caterpillar's library: what it can do, drawn as people's actions of the same name are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from actions_library.authoring.caterpillar import crawls, standing
+from actions_library.authoring.caterpillar.body import caterpillar_character
+from actions_library.authoring.caterpillar.skeleton import caterpillar_rig
+from actions_library.authoring.rig import Rig
+from actions_library.folder import load_library, write_library
+from actions_library.gestures import with_gestures
+from actions_library.library import Credit, Library
+from smd.cast import IDLE
+from smd.character.clip import Clip
+from smd.recognition.action import Action
+
+CATERPILLAR_ACTIONS = (
+    Action("crawl", None, travels=True, cyclic=True),
+    Action("walk", None, travels=True, cyclic=True),
+    Action("hump", None, travels=True, cyclic=True, description="Not drawn: faster than walk."),
+    Action("loop", None, travels=True, cyclic=True, description="Not drawn: faster than hump."),
+    Action("crouch", None),
+    Action("look", None, description="Not drawn: raises its front and looks about."),
+    Action("jump", None, travels=True),
+    Action(IDLE, None, cyclic=True),
+)
+"""What the caterpillar can do; its walk is the usual crawl."""
+
+_CLIPS = (
+    crawls.crawl,
+    crawls.walk,
+    crawls.hump,
+    crawls.loop,
+    standing.crouch,
+    standing.look,
+    standing.jump,
+    standing.idle,
+)
+
+
+def caterpillar_clips(rig: Rig) -> tuple[Clip, ...]:
+    """Return every clip of a rig of `actions_library.authoring.caterpillar.skeleton`."""
+    return tuple(make(rig) for make in _CLIPS)
+
+
+def write_caterpillar(folder: Path) -> Library:
+    """Make the caterpillar, its clips and its actions, and write them as a library."""
+    rig = caterpillar_rig()
+    clips = {clip.name: clip for clip in caterpillar_clips(rig)}
+    return write_library(
+        folder,
+        name="caterpillar",
+        character=caterpillar_character(rig.skeleton),
+        clips=clips,
+        actions=with_gestures(CATERPILLAR_ACTIONS, load_library()),
+        credits=dict.fromkeys(clips, Credit("Spatial Motion Doodles", "MIT")),
+    )
