@@ -11,6 +11,7 @@ from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.dog.library import write_dog
 from actions_library.authoring.examples import with_examples
+from actions_library.authoring.moon.library import write_moon
 from actions_library.folder import write_library
 from actions_library.library import Credit, Library
 from smd.errors import SmdError
@@ -35,6 +36,7 @@ def write_humanoid(folder: Path) -> Library:
 CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
     "humanoid": write_humanoid,
     "dog": write_dog,
+    "moon": write_moon,
 }
 """What writes each character's library."""
 
