@@ -10,6 +10,7 @@ from actions_library.authoring.actions import HUMANOID_ACTIONS
 from actions_library.authoring.body import humanoid_character
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.dog.library import write_dog
+from actions_library.authoring.dragon.library import write_dragon
 from actions_library.authoring.examples import with_examples
 from actions_library.authoring.moon.library import write_moon
 from actions_library.folder import write_library
@@ -36,6 +37,7 @@ def write_humanoid(folder: Path) -> Library:
 CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
     "humanoid": write_humanoid,
     "dog": write_dog,
+    "dragon": write_dragon,
     "moon": write_moon,
 }
 """What writes each character's library."""
