@@ -18,7 +18,7 @@ from smd.geometry.arrays import FloatArray, IntArray
 
 THICKNESS_M = 0.003
 
-FLANK: Point = (0.085, 0.535, -0.150)
+FLANK: Point = (0.082, 0.538, -0.140)
 """Where the skin ends at the body."""
 
 TRAILING: Point = (0.300, 0.585, -0.265)
@@ -55,7 +55,7 @@ _LINES = (
         ELBOW,
         TRAILING,
         {"left_wing_arm": 0.5, "left_wing_forearm": 0.5},
-        {"left_wing_arm": 0.35, "left_wing": 0.3, "left_finger_3": 0.35},
+        {"left_wing_arm": 0.25, "left_wing": 0.5, "left_finger_3": 0.25},
     ),
     _Line(WRIST, FINGER_TIPS[2], {"left_wing_forearm": 1.0}, {"left_finger_3": 1.0}),
     _Line(WRIST, FINGER_TIPS[1], {"left_wing_forearm": 1.0}, {"left_finger_2": 1.0}),
@@ -135,7 +135,8 @@ def _sheet(skeleton: Skeleton) -> tuple[FloatArray, FloatArray, IntArray]:
         t = c / _ACROSS - panel
         near, far = _LINES[panel], _LINES[panel + 1]
         edge = 1.0 - 0.16 * 4.0 * t * (1.0 - t)  # scalloped between the lines
-        bow = 0.020 * 4.0 * t * (1.0 - t)  # and hanging a little
+        hangs_m = 0.020 if panel else -0.012  # folded, the inner one must not lie in the back
+        bow = hangs_m * 4.0 * t * (1.0 - t)
         for line, share in ((near, 1.0 - t), (far, t)):
             start, end = np.array(line.start), np.array(line.end)
             grid[:, c] += share * (start + np.outer(down * edge, end - start))

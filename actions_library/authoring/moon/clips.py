@@ -154,7 +154,10 @@ def _shown(
         key(0.0, **rest, **none),
         key(0.12, **rest, **none),
         key(0.12 + in_s, **posed, **weights),
-        key(0.5 * (end + in_s - out_s), **{n: 0.92 * w for n, w in weights.items()}),
+        key(
+            0.5 * (end + in_s - out_s),  # an eye that is closed stays so
+            **{n: w if "blink" in n else 0.92 * w for n, w in weights.items()},
+        ),
         key(end - out_s - 0.1, **posed, **weights),
         key(end - 0.1, **rest, **none),
         key(end, **rest, **none),
