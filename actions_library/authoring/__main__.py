@@ -12,7 +12,9 @@ from actions_library.authoring.caterpillar.library import write_caterpillar
 from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.clips.face_actions import FACE_ACTIONS, face_clips
 from actions_library.authoring.dog.library import write_dog
+from actions_library.authoring.dragon.library import write_dragon
 from actions_library.authoring.examples import with_examples
+from actions_library.authoring.moon.library import write_moon
 from actions_library.folder import write_library
 from actions_library.library import Credit, Library
 from smd.errors import SmdError
@@ -54,6 +56,8 @@ CHARACTERS: Mapping[str, Callable[[Path], Library]] = {
     "faces": write_faces,
     "dog": write_dog,
     "caterpillar": write_caterpillar,
+    "dragon": write_dragon,
+    "moon": write_moon,
 }
 """What writes each character's library."""
 

@@ -1,0 +1,1 @@
+"""A moon with a face and no limbs: skeleton, face, shapes, clips and actions, by code alone."""
