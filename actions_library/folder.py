@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from smd.recognition.action import Action
 
 EXEMPLARS_FOLDER = "exemplars"
+HUMANOID = "humanoid"
+
+_SHELF = Path(__file__).parent
 
 
 def load_library(path: Path | str | None = None) -> Library:
@@ -28,28 +31,47 @@ def load_library(path: Path | str | None = None) -> Library:
     Parameters
     ----------
     path
-        The folder; None for the humanoid that is shipped, which is read once.
+        The folder, or, where no folder is called so, the name of a library that is shipped (see
+        `shipped_libraries`); None for the humanoid. A shipped library is read once.
 
     Raises
     ------
     LibraryError
         If there is no such folder, or its ``library.json`` is not one of ours.
     """
-    return _shipped() if path is None else read_manifest(Path(path))
+    if path is None:
+        return _shipped(HUMANOID)
+    folder = Path(path)
+    if names_shipped(path):
+        return _shipped(str(path))
+    if folder.is_dir():
+        return read_manifest(folder)
+    names = ", ".join(shipped_libraries())
+    raise LibraryError(f"{path}: expected a library's folder, or one of {names}; found neither")
+
+
+def names_shipped(path: Path | str) -> bool:
+    """Return whether a path names a library that is shipped, and no folder."""
+    return str(path) in shipped_libraries() and not Path(path).is_dir()
+
+
+def shipped_libraries() -> tuple[str, ...]:
+    """Return the names of the libraries that are shipped."""
+    return tuple(sorted(file.parent.name for file in _SHELF.glob(f"*/{MANIFEST}")))
 
 
 @cache
-def _shipped() -> Library:
-    """Read the humanoid; nothing of it changes, so all may share it and what it has read."""
-    read = read_manifest(Path(__file__).with_name("humanoid"))
+def _shipped(name: str) -> Library:
+    """Read a shipped library; nothing of it changes, so all may share it and what it has read."""
+    read = read_manifest(_SHELF / name)
     return _ShippedLibrary(**{one.name: getattr(read, one.name) for one in fields(read)})
 
 
 class _ShippedLibrary(Library):
-    """The humanoid: another process has it as well, and takes its own."""
+    """One that is shipped: another process has it as well, and takes its own."""
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return load_library, ()
+        return _shipped, (self.folder.name,)
 
 
 def write_library(

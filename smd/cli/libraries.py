@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     from smd.score import Score
 
 LibraryFolder = Annotated[
-    Path | None, typer.Option("--library", help="A library folder. Default: the shipped humanoid.")
+    Path | None,
+    typer.Option(
+        "--library", help="A library's folder, or its name if it is shipped. Default: humanoid."
+    ),
 ]
 ExtendedFolder = Annotated[
     Path, typer.Option("--library", help="The library to extend; made where there is none.")
@@ -24,8 +27,8 @@ Libraries = Annotated[
     typer.Option(
         "--library",
         metavar="[DEVICE=]DIR",
-        help="A library folder; after DEVICE= for that performer alone, and may be repeated. "
-        "Default: the shipped humanoid.",
+        help="A library's folder, or its name if it is shipped; after DEVICE= for that performer "
+        "alone, and may be repeated. Default: humanoid.",
     ),
 ]
 
@@ -65,8 +68,8 @@ class LibraryFolders:
     def over(self, score: Score, score_file: Path) -> LibraryFolders:
         """Return these, and where they say nothing those that a Score names."""
         named = {part.device: part.library for part in score.performers if part.library}
-        own = {device: score_file.parent / folder for device, folder in named.items()}
-        shared = score_file.parent / score.library if score.library else None
+        own = {device: _beside(score_file, folder) for device, folder in named.items()}
+        shared = _beside(score_file, score.library) if score.library else None
         return LibraryFolders(self.shared or shared, {**own, **self.own})
 
     def load(self) -> Cast:
@@ -82,3 +85,11 @@ class LibraryFolders:
             replace(part, library=str(self.own.get(part.device, ""))) for part in score.performers
         )
         return replace(score, performers=parts, library=str(self.shared or ""))
+
+
+def _beside(score_file: Path, library: str) -> Path:
+    """Return the library that a Score names: a folder beside it, or one that is shipped."""
+    from actions_library.folder import shipped_libraries
+
+    folder = score_file.parent / library
+    return Path(library) if library in shipped_libraries() and not folder.is_dir() else folder

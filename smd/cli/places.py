@@ -63,12 +63,18 @@ def beside(score: Score, score_file: Path) -> Score:
     return replace(
         score,
         recording=_seen_from(folder, score.recording),
-        library=_seen_from(folder, score.library) if score.library else "",
+        library=_library_from(folder, score.library),
         performers=tuple(
-            replace(part, library=_seen_from(folder, part.library) if part.library else "")
-            for part in score.performers
+            replace(part, library=_library_from(folder, part.library)) for part in score.performers
         ),
     )
+
+
+def _library_from(folder: Path, name: str) -> str:
+    """Return how a library is named as seen from a folder; one that is shipped, by its name."""
+    from actions_library.folder import names_shipped
+
+    return name if not name or names_shipped(name) else _seen_from(folder, name)
 
 
 def _seen_from(folder: Path, name: str) -> str:

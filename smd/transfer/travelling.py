@@ -29,6 +29,10 @@ TAKE_OFF_S = 0.6
 """Time in which a clip that never touches the ground takes off, and lands; never more than a third
 of the phrase."""
 
+UPRIGHT_S = 1.1
+"""Time in which a body gets from lying in the air to standing, where it is planned as a body can:
+its greatest speed is 1.9 times the mean."""
+
 
 def along_path(
     piece: Piece,
@@ -83,7 +87,9 @@ def along_path(
     else:
         share = even
         cycles = float(max(round((end_s - start_s) / gait.duration_s), 1))
-        presence = _ends(time_s, settling_s[0], from_same=from_gait, into_same=into_gait)
+        longest_s = UPRIGHT_S if standing_s > 0.0 else TAKE_OFF_S
+        over_s = min(longest_s, (end_s - start_s) / 3.0)
+        presence = _ends(time_s, over_s, from_same=from_gait, into_same=into_gait)
         first = 0.0 if phase is None else phase
     heading = path.heading_at(clock_s)
     return Move(

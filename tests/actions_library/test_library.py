@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import shutil
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdSkel
 
-from actions_library.folder import load_library, write_library
+from actions_library.folder import load_library, shipped_libraries, write_library
 from actions_library.library import Library
 from smd.errors import LibraryError
 from smd.recognition.action import Action
@@ -251,6 +252,22 @@ def test_a_missing_or_damaged_file_is_named(library, tmp_path, file, content):
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(LibraryError, match="nowhere"):
         load_library(tmp_path / "nowhere")
+
+
+def test_shipped_libraries_are_found_by_name_and_folders_come_first(tmp_path, monkeypatch):
+    shipped = load_library().folder
+    assert "humanoid" in shipped_libraries()
+    assert load_library("humanoid") is load_library()
+    assert pickle.loads(pickle.dumps(load_library("humanoid"))) is load_library()
+    monkeypatch.chdir(tmp_path)
+    made(tmp_path / "humanoid")
+    assert load_library("humanoid").folder == Path("humanoid")
+    assert load_library().folder == shipped
+
+
+def test_an_unknown_name_is_answered_with_those_there_are():
+    with pytest.raises(LibraryError, match=r"humanoyd: expected a library's folder, or one of .*"):
+        load_library("humanoyd")
 
 
 def test_a_file_is_not_a_library(library):

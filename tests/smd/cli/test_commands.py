@@ -141,3 +141,12 @@ def test_a_ground_to_walk_on_is_shown_and_one_that_ends_is_refused(run_smd, stor
     stage = Usd.Stage.Open(str(out))
     ground = UsdGeom.Mesh(stage.GetPrimAtPath("/Performance/Scenery/Ground"))
     assert ground.GetPointsAttr().Get()[2] == (50.0, 5.0, 50.0)
+
+
+def test_a_shipped_library_is_named_not_its_folder(run_smd, stories, tmp_path):
+    score = tmp_path / "story.score.json"
+    code, _, err = run_smd("parse", stories / "postman.csv", "-o", score, "--library", "humanoid")
+    assert code == 0, err
+    assert json.loads(score.read_text(encoding="utf-8"))["library"] == "humanoid"
+    code, _, err = run_smd("animate", score, "-o", tmp_path / "story.usdc")
+    assert code == 0, err
