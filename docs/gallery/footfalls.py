@@ -1,7 +1,7 @@
 """Draw which foot is down when: ``PYTHONPATH=. python docs/gallery/footfalls.py``.
 
-A panel for each gait of a dog, a horse and two foxes, over one cycle from the left hind foot's landing on; where
-nothing is down, the animal flies. Animals whose files are absent are left out.
+A panel for each gait of a dog, a horse and two foxes, over one cycle from the left hind foot's
+landing on; where nothing is down, the animal flies. Animals whose files are absent are left out.
 """
 
 from __future__ import annotations

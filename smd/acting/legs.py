@@ -48,8 +48,19 @@ LOW_AT_REST = 0.3
 crawl touch the ground too."""
 
 
+STEEP = 1.0
+"""Tangent of a foot's slope at rest above which the animal stands on its toes, as dogs do."""
+
+BENT_BACK = 0.05
+"""How far behind the line from hip to ankle a joint is at rest, as a share of the leg, if it is an
+elbow and no knee."""
+
+
 def feet_of(clip: Clip) -> tuple[int, ...]:
-    """Return the joints of a clip's feet: low contact joints below no other one, as toes are."""
+    """Return the joints of a clip's feet: low contact joints below no other one, as toes are.
+
+    Where toes alone touch the ground, since the animal stands on them, it is the joint above them.
+    """
     skeleton = clip.skeleton
     if not clip.contact_joints:
         return ()
@@ -65,15 +76,27 @@ def feet_of(clip: Clip) -> tuple[int, ...]:
         while above >= 0 and above not in contact:
             above = int(clip.skeleton.parents[above])
         if above < 0:
-            feet.append(joint)
-    return tuple(feet)
+            parent = int(clip.skeleton.parents[joint])
+            on_toes = parent > 0 and _steep(place[joint] - place[parent])
+            feet.append(parent if on_toes and not _has_children(clip.skeleton, joint) else joint)
+    return tuple(sorted(feet))
+
+
+def _steep(ahead_m: FloatArray) -> bool:
+    """Return whether a foot that goes so far from ankle to ball stands on its toes."""
+    return bool(-ahead_m[1] > STEEP * np.hypot(ahead_m[0], ahead_m[2]))
+
+
+def _has_children(skeleton: Skeleton, joint: int) -> bool:
+    return bool((skeleton.parents == joint).any())
 
 
 def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
     """Return the legs of the feet that have one: two joints above them, apart from the root.
 
-    The knee is taken to point ahead. The ball is at the foot's first child, the heel on the
-    ground behind the ankle; a foot without a child touches the ground below its joint alone.
+    The knee is taken to point ahead, or back where it does so clearly at rest, as elbows do. The
+    ball is at the foot's first child, the heel on the ground behind the ankle; a foot without a
+    child touches the ground below its joint alone, and a steep one with its toes.
     """
     world_q, world_p = forward_kinematics(
         skeleton, skeleton.rest_rotation_xyzw, skeleton.rest_translation_m
@@ -89,6 +112,12 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
         under = np.array([0.0, -world_p[foot, 1], 0.0])
         heel = under - HEEL_BEHIND_ANKLE * np.array([ahead[0], 0.0, ahead[2]])
         ball = ahead if len(below) else under
+        if len(below) and _steep(ahead):
+            # As high as the ball's joint, so that it never bears: toes are rolled over either way.
+            heel = ahead * [0.9, 1.0, 0.9]
+        span, knee = (world_p[joint] - world_p[upper] for joint in (foot, lower))
+        behind = float(span[2] * (knee @ span) / (span @ span) - knee[2])
+        pole = [0.0, 0.0, -1.0 if behind > BENT_BACK * np.linalg.norm(span) else 1.0]
         back = inverse(world_q[foot])
         thigh, shin, end = (skeleton.joints[joint] for joint in (upper, lower, foot))
         legs.append(
@@ -96,7 +125,7 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
                 upper=upper,
                 lower=lower,
                 foot=foot,
-                limb=limb_of(skeleton, thigh, shin, end, [0.0, 0.0, 1.0]),
+                limb=limb_of(skeleton, thigh, shin, end, pole),
                 heel_m=rotate(back, heel),
                 ball_m=rotate(back, ball),
                 up=rotate(back, np.array([0.0, 1.0, 0.0])),
