@@ -9,8 +9,10 @@ import pytest
 
 import smd
 from benchmarks.creatures import footed
+from smd.acting.gaze import neck_of
 from smd.acting.legs import feet_of, legs_of
-from smd.character.kinematics import forward_kinematics
+from smd.character.kinematics import forward_kinematics, joints_in_world
+from smd.geometry.rotations import rotate
 
 DOG = smd.load_library("dog")
 SKELETON = DOG.character.skeleton
@@ -61,3 +63,27 @@ def test_knees_point_ahead_and_elbows_back_on_a_path():
                 a, b, c = (place[:, SKELETON.index(f"{side}_{name}")] for name in names)
                 # a leg that is stretched out is straight to rounding
                 assert (ahead * np.cross(b - a, c - b)[:, 0] > -1e-4).all()
+
+
+def test_a_dog_looks_at_the_person_beside_it():
+    neck = neck_of(SKELETON)
+    assert neck is not None and SKELETON.joints[neck.chest] == "chest"
+    assert [SKELETON.joints[joint] for joint in neck.joints] == ["neck", "upper_neck", "head"]
+    recording = smd.read_recording(STORIES / "duel.csv")
+    cast = smd.Cast(smd.load_library(), {"rival": DOG})
+    performance = smd.animate(smd.parse(recording, cast), recording, cast)
+    knight, dog = performance.actors
+    eyes = [
+        joints_in_world(one.character.skeleton, [one.character.skeleton.index("head")], *one.poses)
+        for one in (knight, dog)
+    ]
+    to_knight = eyes[0][1][:, 0] - eyes[1][1][:, 0]
+    face = rotate(eyes[1][0][:, 0], np.array([0.0, 0.0, 1.0]))
+    looking = slice(round(6.0 * performance.rate_hz), round(9.0 * performance.rate_hz))
+    apart = heading(face[looking]) - heading(to_knight[looking])
+    assert np.degrees(np.abs(np.arctan2(np.sin(apart), np.cos(apart)))).max() < 15.0
+    assert np.degrees(np.arcsin(face[looking, 1])).min() > 10.0  # up at a person
+
+
+def heading(way):
+    return np.arctan2(way[:, 0], way[:, 2])
