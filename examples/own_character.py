@@ -22,8 +22,9 @@ CLIP = Path(__file__).with_name("arms_up.bvh")
 
 FOLDER.mkdir(exist_ok=True)
 shutil.rmtree(FOLDER / "my_hero", ignore_errors=True)
-hero, idling = library_from(FOLDER / "my_hero", import_file(CHARACTER))
-print(f"my_hero: {len(hero.character.skeleton)} joints, idles with {idling or 'its rest pose'}")
+hero, played = library_from(FOLDER / "my_hero", import_file(CHARACTER))
+idling = played.get("idle", "its rest pose")
+print(f"my_hero: {len(hero.character.skeleton)} joints, idles with {idling}")
 arms_up = import_file(CLIP, up="y", unit_m=1.0)  # a BVH file does not say; by default a guess
 hero, adopted = import_clip(hero, arms_up, arms_up.animations[0], "hurrah")
 manner = "travels" if adopted.ground.travels else "in place"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from laban import EffortModel, RigidMotion, load_effort_model, read_effort
@@ -35,7 +35,8 @@ class Parser:
 
     Attributes
     ----------
-    library : the actions to recognise. In a `Cast`, each device's own.
+    library : the actions to recognise. In a `Cast`, each device's own; where these explain nothing,
+        those of the shared library that its own lacks, since who draws may know them all.
     figure_height_m : height of the figurine that the prop stands for, positive.
     devices : those that perform; by default all but headsets (or the headset, where it is alone).
     tolerance : how unlike an action's examples a gesture may be, positive: below 1 more is
@@ -136,7 +137,11 @@ class Parser:
         left_out = []
         for doodle in recording.of(device):
             try:
-                understood.append(_understood(doodle, recognizer))
+                one = _understood(doodle, recognizer)
+                if library is not self._cast.shared:
+                    shared = self._recognizers[self._cast.shared]
+                    one = _with_lacking(one, _understood(doodle, shared), library)
+                understood.append(one)
             except DoodleError as error:
                 left_out.append(f"left out: {error}")
         played = [
@@ -177,6 +182,24 @@ def _understood(doodle: Doodle, recognizer: Recognizer) -> Understood:
     runs = recognizer.runs_of(doodle, motion)
     intent = recognizer.intent_of(doodle)
     return Understood(motion, runs, recognizer.spot_runs(motion, runs, intent), intent)
+
+
+def _with_lacking(own: Understood, shared: Understood, library: ActionLibrary) -> Understood:
+    """Return what a library explains of a doodle, and in between what another one does.
+
+    Of the other one's actions, only those that the library lacks.
+    """
+    has = {action.name for action in library.actions}
+    more = [
+        one
+        for one in shared.detections
+        if one.action not in has
+        and not any(
+            one.start_s < other.end_s and other.start_s < one.end_s for other in own.detections
+        )
+    ]
+    found = sorted([*own.detections, *more], key=lambda one: one.start_s)
+    return replace(own, detections=tuple(found))
 
 
 def _suggestions(

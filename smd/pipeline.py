@@ -36,7 +36,8 @@ def parse(
     recording
         What was drawn.
     library
-        The actions to recognise; their clips are not read. In a `Cast`, each device's own.
+        The actions to recognise; their clips are not read. In a `Cast`, each device's own, and
+        those of the shared one that its own lacks.
     figure_height_m, devices, tolerance, intent, unexplained
         Those of `smd.parsing.Parser`.
 
@@ -86,7 +87,8 @@ def animate(
     Parameters
     ----------
     score
-        Who does what, when and how.
+        Who does what, when and how. What a character has no clip for it idles through, and a
+        warning names it.
     recording
         The doodles that the Score was read from.
     library
@@ -113,7 +115,7 @@ def animate(
     Raises
     ------
     ScoreError
-        If the Score names an action, a device or a time that is not there.
+        If the Score names a device or a time that is not there.
     LibraryError
         If a cast has a library for a device that is not in the recording.
     ImportedFileError

@@ -13,6 +13,7 @@ from actions_library.adoption.character import adopted_character
 from actions_library.adoption.clip import Adopted, adopted_clip
 from actions_library.extension import put_clip
 from actions_library.folder import write_library
+from actions_library.gestures import with_gestures
 from actions_library.importers.imported import Animation, Imported
 from actions_library.library import Credit, Library
 from smd.cast import IDLE
@@ -23,6 +24,7 @@ from smd.errors import LibraryError
 from smd.recognition.action import Action
 
 _IDLE_NAME = re.compile(r"(?:^|[^a-z])idle(?:$|[^a-z])", re.IGNORECASE)
+_NO_LETTERS = re.compile(r"[^a-z0-9]+")
 
 
 def library_from(
@@ -31,11 +33,13 @@ def library_from(
     *,
     front: Sequence[float] | None = None,
     credit: Credit = Credit(),  # noqa: B008 - frozen
-) -> tuple[Library, str | None]:
+    lender: Library | None = None,
+) -> tuple[Library, dict[str, str]]:
     """Write a library of an imported character with an idle clip, and return it.
 
-    The idle clip is the file's animation of that name, or the rest pose. The animation's name is
-    returned too, None for the rest pose.
+    The idle clip is the file's animation of that name, or the rest pose. With a lender, the file's
+    animations that are called as an action that it draws become actions with its gestures. The
+    name of each action's animation is returned too, without idling in the rest pose.
 
     Parameters
     ----------
@@ -47,6 +51,8 @@ def library_from(
         Level direction in which the figure faces, where the guess is wrong.
     credit
         Whose it is.
+    lender
+        Whose gestures it is to be drawn with.
 
     Raises
     ------
@@ -59,23 +65,50 @@ def library_from(
         raise LibraryError(f"{folder}: expected a missing or an empty folder, found files in it")
     name = folder.resolve().name
     character = adopted_character(imported, name, front=front)
-    idling = _idling(imported)
-    if idling is None:
-        clip = _at_rest(character, imported.rest_tracks)
-    else:
+    found = {IDLE: _idling(imported), **_called_as(imported, lender)}
+    taken = {name: animation for name, animation in found.items() if animation is not None}
+    clips, actions = {IDLE: _at_rest(character, imported.rest_tracks)}, []
+    for action, animation in taken.items():
+        idles = action == IDLE
         adopted = adopted_clip(
-            imported, idling, character, IDLE, travels=False, cyclic=True, front=front
+            imported,
+            animation,
+            character,
+            action,
+            travels=False if idles else None,
+            cyclic=True if idles else None,
+            front=front,
         )
-        clip = adopted.clip
+        clips[action] = adopted.clip
+        if not idles:
+            ground = adopted.ground
+            actions.append(Action(action, None, travels=ground.travels, cyclic=adopted.clip.cyclic))
     library = write_library(
         folder,
         name=name,
         character=character,
-        clips={IDLE: clip},
-        actions=(Action(IDLE, None, cyclic=True),),
-        credits={IDLE: credit},
+        clips=clips,
+        actions=(
+            Action(IDLE, None, cyclic=True),
+            *(with_gestures(actions, lender) if lender else actions),
+        ),
+        credits=dict.fromkeys(clips, credit),
     )
-    return library, None if idling is None else idling.name
+    return library, {action: animation.name for action, animation in taken.items()}
+
+
+def _called_as(imported: Imported, lender: Library | None) -> dict[str, Animation]:
+    """Return the animations that are called as an action that a library draws, by the action.
+
+    ``Armature|Turn Left`` is called as ``turn_left``. Of several, the first in the file.
+    """
+    drawn = {a.name for a in lender.actions if a.pattern is not None} if lender else set()
+    called: dict[str, Animation] = {}
+    for animation in imported.animations:
+        name = _NO_LETTERS.sub("_", animation.name.lower().rpartition("|")[2]).strip("_")
+        if name in drawn:
+            called.setdefault(name, animation)
+    return called
 
 
 def _idling(imported: Imported) -> Animation | None:
@@ -112,10 +145,12 @@ def import_clip(
     front: Sequence[float] | None = None,
     description: str = "",
     credit: Credit = Credit(),  # noqa: B008 - frozen
+    lender: Library | None = None,
 ) -> tuple[Library, Adopted]:
     """Put an imported animation into a library as an action's clip, and return both.
 
-    An existing action keeps its gesture; a new one has none yet.
+    An existing action keeps its gesture; a new one has none yet, or that of a lender's action of
+    its name.
 
     Parameters
     ----------
@@ -131,14 +166,20 @@ def import_clip(
         What the gesture of the prop will be; empty keeps what is there.
     credit
         Whose the clip is.
+    lender
+        Whose gesture it is to be drawn with.
 
     Raises
     ------
     ImportedFileError
         If the skeletons are not of the same kind.
     LibraryError
-        If the action's name is no word, or the folder cannot be written.
+        If the action's name is no word, the lender does not draw it, or the folder cannot be
+        written.
     """
+    drawn = [a.name for a in lender.actions if a.pattern is not None] if lender else [action]
+    if action not in drawn:
+        raise LibraryError(f"gestures: expected an action of {', '.join(drawn)}; got {action!r}")
     idles = action == IDLE
     adopted = adopted_clip(
         imported,
@@ -150,6 +191,8 @@ def import_clip(
         front=front,
     )
     known = next((a for a in library.actions if a.name == action), Action(action, None))
+    if lender is not None:
+        (known,) = with_gestures([known], lender)
     changed = replace(
         known,
         travels=adopted.ground.travels,

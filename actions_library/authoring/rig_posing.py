@@ -128,6 +128,30 @@ def make_rig_clip(
     )
 
 
+def at_half_rate(clip: Clip) -> Clip:
+    """Return a clip of every second frame, for what is slow enough; it has an odd number of them.
+
+    Raises
+    ------
+    ValueError
+        If its last frame would be left out.
+    """
+    if len(clip) % 2 == 0:
+        raise ValueError(f"{clip.name}: expected an odd number of frames, got {len(clip)}")
+    return Clip(
+        name=clip.name,
+        skeleton=clip.skeleton,
+        rate_hz=0.5 * clip.rate_hz,
+        rotation_xyzw=clip.rotation_xyzw[::2],
+        translation_m=clip.translation_m[::2],
+        stage_end_frames=np.round(0.5 * clip.stage_end_frames).astype(np.int64),
+        contact_joints=clip.contact_joints,
+        contacts=clip.contacts[::2],
+        cyclic=clip.cyclic,
+        tracks=Tracks(clip.tracks.names, clip.tracks.value[::2]),
+    )
+
+
 def _check_names(what: str, found: Iterable[str], known: Iterable[str]) -> None:
     known = tuple(known)
     for name in found:

@@ -51,9 +51,15 @@ LOW_AT_REST = 0.3
 """Height at rest, as a share of the body's, below which a joint that touches is a foot: hands that
 crawl touch the ground too."""
 
+STEEP = 1.0
+"""Tangent of a foot's slope at rest above which the animal stands on its toes, as dogs do."""
+
 
 def feet_of(clip: Clip) -> tuple[int, ...]:
-    """Return the joints of a clip's feet: low contact joints below no other one, as toes are."""
+    """Return the joints of a clip's feet: low contact joints below no other one, as toes are.
+
+    Where toes alone touch the ground, since the animal stands on them, it is the joint above them.
+    """
     skeleton = clip.skeleton
     if not clip.contact_joints:
         return ()
@@ -67,8 +73,24 @@ def feet_of(clip: Clip) -> tuple[int, ...]:
         while above >= 0 and above not in contact:
             above = int(clip.skeleton.parents[above])
         if above < 0:
-            feet.append(joint)
-    return tuple(feet)
+            parent = int(clip.skeleton.parents[joint])
+            on_toes = _joints_above(skeleton, joint) > 2 and _steep(place[joint] - place[parent])
+            feet.append(parent if on_toes else joint)
+    return tuple(sorted(feet))
+
+
+def _steep(ahead_m: FloatArray) -> bool:
+    """Return whether a foot that goes so far from ankle to ball stands on its toes."""
+    return bool(-ahead_m[1] > STEEP * np.hypot(ahead_m[0], ahead_m[2]))
+
+
+def _joints_above(skeleton: Skeleton, tip: int) -> int:
+    """Return how many joints of a limb are above its tip; 0 where it is no tip."""
+    children = np.bincount(skeleton.parents[1:], minlength=len(skeleton))
+    above, joint = 0, int(skeleton.parents[tip])
+    while children[tip] == 0 and joint > 0 and children[joint] == 1:
+        above, joint = above + 1, int(skeleton.parents[joint])
+    return above
 
 
 def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
@@ -76,7 +98,7 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
 
     The knee points where it does at rest, and ahead where the resting leg is straight. The ball is
     at the foot's first child, the heel on the ground behind the ankle; a foot without a child
-    touches the ground below its joint alone.
+    touches the ground below its joint alone, and a steep one with its toes.
     """
     world_q, world_p = rest_in_world(skeleton)
     legs = []
@@ -90,6 +112,9 @@ def legs_of(skeleton: Skeleton, feet: Sequence[int]) -> tuple[Leg, ...]:
         under = np.array([0.0, -world_p[foot, 1], 0.0])
         heel = under - HEEL_BEHIND_ANKLE * np.array([ahead[0], 0.0, ahead[2]])
         ball = ahead if len(below) else under
+        if len(below) and _steep(ahead):
+            # As high as the ball's joint, so that it never bears: toes are rolled over either way.
+            heel = ahead * [0.9, 1.0, 0.9]
         back = inverse(world_q[foot])
         thigh, shin, end = (skeleton.joints[joint] for joint in (upper, lower, foot))
         legs.append(

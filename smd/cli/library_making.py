@@ -19,6 +19,14 @@ if TYPE_CHECKING:
 SHOWN_NAMES = 40
 
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="The library's folder.")]
+Gestures = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LIBRARY",
+        help="Draw its actions as those of the same name in this library: a folder, or a shipped "
+        "library's name, such as humanoid.",
+    ),
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,18 +111,29 @@ def new(
         typer.Option(metavar="FILE", help="A glTF, GLB or USD file with a skinned character."),
     ],
     importing: ImportingOptions,
+    gestures: Gestures = None,
 ) -> None:
     """Make a library of a character of one's own.
 
     It idles with the file's animation of that name, or stands; `smd library import` adds clips.
+    With --gestures, the file's animations that are called as an action of that library are
+    imported, and drawn as there.
     """
+    import smd
     from actions_library.adoption.character import plan_of
     from actions_library.adoption.library import library_from
+    from smd.cast import IDLE
 
+    lender = None if gestures is None else smd.load_library(gestures)
     imported = importing.imported(character)
-    library, idling = library_from(
-        folder, imported, front=importing.direction(), credit=importing.credit()
+    library, played = library_from(
+        folder,
+        imported,
+        front=importing.direction(),
+        credit=importing.credit(),
+        lender=lender,
     )
+    idling = played.pop(IDLE, None)
     figure = library.character
     shapes = f", {len(figure.shapes)} shapes" if figure.shapes else ""
     typer.echo(
@@ -123,6 +142,9 @@ def new(
     )
     typer.echo("\n".join(_plan_lines(imported, plan_of(imported, front=importing.direction()))))
     typer.echo(f"  idles with: {idling or 'its rest pose, since no animation is called idle'}")
+    if lender is not None:
+        drawn = [f"{action} ({animation})" for action, animation in played.items()]
+        typer.echo(f"  drawn as in {lender.name}: {_some(drawn) or 'none is called as an action'}")
     names = [a.name for a in imported.animations]
     typer.echo(f"  animations in the file: {_some(names) or 'none'}")
     for note in imported.notes:
@@ -142,11 +164,13 @@ def import_(
     replace: Annotated[
         bool, typer.Option("--replace", help="Take the place of the action's present clip.")
     ] = False,
+    gestures: Gestures = None,
 ) -> None:
     """Import a clip as an action.
 
     A clip of another skeleton of the same kind is carried over. What is found out about it is
-    printed, and can be overruled. `smd learn ACTION` then teaches its gesture.
+    printed, and can be overruled. `smd learn ACTION` then teaches its gesture, unless --gestures
+    says where it is from.
     """
     import smd
     from actions_library.adoption.library import import_clip
@@ -171,6 +195,7 @@ def import_(
         front=importing.direction(),
         description=clip.description,
         credit=importing.credit(),
+        lender=None if gestures is None else smd.load_library(gestures),
     )
     typer.echo("\n".join(_clip_lines(adopted, part.name)))
     for note in imported.notes:

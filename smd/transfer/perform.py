@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +19,7 @@ from smd.score import Part, Score
 from smd.score_file import score_to_json
 from smd.transfer.demands import demands
 from smd.transfer.facing import HEADINGS
+from smd.transfer.lacking import without_lacking
 from smd.transfer.limits import Limits
 from smd.transfer.plan import DRAWN, TIMINGS
 from smd.transfer.plan_report import hurried, plan_to_json, unmet
@@ -61,7 +61,7 @@ def perform(
     Parameters
     ----------
     score
-        Its actions are the library's, its devices the recording's.
+        Its devices are the recording's. What its library has no action for is idled through.
     recording
         What the Score was read from; the performance lasts from its first to its last sample.
     library
@@ -88,13 +88,13 @@ def perform(
     Returns
     -------
     Performance
-        Its warnings are the Score's, and what the doodles ask too much of; its source is the
-        Score with these warnings.
+        Its warnings are the Score's, what its characters lack, and what the doodles ask too much
+        of; its source is the Score with these warnings.
 
     Raises
     ------
     ScoreError
-        If an action, a device or a time is not there.
+        If a device or a time is not there.
     LibraryError
         If a cast has a library for a device that is not in the recording.
     TransferError
@@ -117,9 +117,10 @@ def perform(
     cast = cast_of(library)
     cast.check(recording.devices)
     for part in score.performers:
-        check_part(part, recording, cast.of(part.device))
+        check_part(part, recording)
+    known, lacking = without_lacking(score, cast)
     for factor in factors(stretch):
-        take = stretched(score, recording, factor)
+        take = stretched(known, recording, factor)
         frames = frames_of(take[1], rate_hz)
         alone = entrances(
             *take,
@@ -138,7 +139,7 @@ def perform(
         actors = with_gaze(actors, rate_hz)
     if hold:
         actors = with_props_held(actors)
-    asked = [line for one in staged for line in demands(one.part.device, one.moves)]
+    asked = lacking + [line for one in staged for line in demands(one.part.device, one.moves)]
     asked += [line for one in staged for line in unmet(one.part.device, one.plan)]
     if hold:
         asked += [EMPTY_HANDED.format(one.name) for one in actors if one.held is None]
@@ -180,26 +181,19 @@ def acted(one: Staged, cast: Cast, frames: Frames, terrain: Terrain | None) -> A
     )
 
 
-def check_part(part: Part, recording: Recording, library: ActionLibrary) -> None:
-    """Raise ScoreError unless a part's device, actions and times are there."""
+def check_part(part: Part, recording: Recording) -> None:
+    """Raise ScoreError unless a part's device and times are there."""
     if part.device not in recording.devices:
         raise ScoreError(
             f"performers: expected a device of the recording ({', '.join(recording.devices)}), "
             f"found {part.device!r}"
         )
-    known = [action.name for action in library.actions]
     doodles = recording.of(part.device)
     first_s, last_s = float(doodles[0].time_s[0]), float(doodles[-1].time_s[-1])
     for i, phrase in enumerate(part.phrases):
-        place = f"device {part.device!r}: phrases[{i}]"
-        if phrase.action not in known:
-            near = difflib.get_close_matches(phrase.action, known, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise ScoreError(
-                f"{place}.action: expected one of {', '.join(known)}, found {phrase.action!r}{hint}"
-            )
         if phrase.start_s < first_s - BEYOND_S or phrase.end_s > last_s + BEYOND_S:
             raise ScoreError(
-                f"{place}: expected times within the device's {first_s:.3f} to {last_s:.3f} s, "
-                f"found {phrase.action!r} from {phrase.start_s:.3f} to {phrase.end_s:.3f} s"
+                f"device {part.device!r}: phrases[{i}]: expected times within the device's "
+                f"{first_s:.3f} to {last_s:.3f} s, found {phrase.action!r} from "
+                f"{phrase.start_s:.3f} to {phrase.end_s:.3f} s"
             )

@@ -240,7 +240,8 @@ def _played(
 def with_faster(known: Repertoire, library: ActionLibrary) -> Repertoire:
     """Return a repertoire that knows with which gaits a way can be gone faster.
 
-    A faster gait touches the ground with the same joints: nobody gets up from a crawl to run.
+    A faster gait touches the ground with the same joints: nobody gets up from a crawl to run. It
+    is of the same manner: who walks happily trots happily, and who just walks just trots.
     """
     slow = [
         name for name, piece in known.pieces.items() if _steps(piece) and name == piece.clip.name
@@ -272,16 +273,36 @@ def _faster(
     own = pieces[name]
     assert own.gait is not None
     same, ahead = [], []
+    names = [other for _, other in gaits]
+    manner = _manner(pieces, names, name)
     for speed, other in gaits:
+        if _manner(pieces, names, other) != manner:
+            continue
         piece = pieces[other]
         touching = set(piece.clip.contact_joints) == set(own.clip.contact_joints)
-        if not touching or speed <= fastest_m_s(own.gait):
+        if (
+            not touching
+            or _manner(pieces, names, other) != manner
+            or speed <= fastest_m_s(own.gait)
+        ):
             continue
         if np.cos(piece.direction_rad - own.direction_rad) > ACROSS:
             same.append(other)
         elif np.cos(piece.direction_rad) > ACROSS and _upright(piece, pieces[IDLE]):
             ahead.append(other)
     return *same, *ahead
+
+
+def _manner(pieces: Mapping[str, Piece], gaits: Sequence[str], name: str) -> str:
+    """Return the manner of a gait: ``happy`` of ``walk_happy`` where that goes the way of ``walk``.
+
+    Empty where there is no such other gait: ``walk_backward`` goes another way than ``walk``.
+    """
+    base, _, word = name.rpartition("_")
+    if base not in gaits:
+        return ""
+    apart_rad = pieces[name].direction_rad - pieces[base].direction_rad
+    return word if np.cos(apart_rad) > ACROSS else ""
 
 
 def _upright(piece: Piece, idle: Piece) -> bool:

@@ -1,9 +1,10 @@
-"""Walk, trot and gallop of the dog, a cycle each."""
+"""Walk, trot and gallop of the dog, a cycle each, in any mood."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+from actions_library.authoring.dog.moods import PLAIN, Mood
 from actions_library.authoring.gait import (
     LATERAL_WALK,
     ROTARY_GALLOP,
@@ -17,13 +18,12 @@ from actions_library.authoring.rig import Rig
 from actions_library.authoring.rig_keys import RigKey, key, whole_cycle
 from actions_library.authoring.rig_posing import make_rig_clip
 from actions_library.authoring.stance import steady_travel
-from actions_library.authoring.waves import Wave
 from smd.character.clip import Clip
 
 _FORE = ("left_fore", "right_fore")
 
 
-def walk(rig: Rig) -> Clip:
+def walk(rig: Rig, mood: Mood = PLAIN) -> Clip:
     """Each hind foot before the fore foot of its side; three feet or two are down."""
     fore = Step(
         duty=0.62,
@@ -68,10 +68,10 @@ def walk(rig: Rig) -> Clip:
         ),
     ]
     gait = GaitDiagram(66 / 60, 0.64, LATERAL_WALK, hind, dict.fromkeys(_FORE, fore))
-    return _gait(rig, "walk", gait, whole_cycle(half))
+    return _gait(rig, "walk", gait, whole_cycle(half), mood)
 
 
-def trot(rig: Rig) -> Clip:
+def trot(rig: Rig, mood: Mood = PLAIN) -> Clip:
     """Diagonal pairs, with a short flight after each; the back is level, the tail up."""
     fore = Step(
         duty=0.42,
@@ -117,10 +117,10 @@ def trot(rig: Rig) -> Clip:
         key(0.42, place=Place(up=-0.012), head=Turn(lean=2.0)),
     ]
     gait = GaitDiagram(30 / 60, 1.0, TROT, hind, dict.fromkeys(_FORE, fore))
-    return _gait(rig, "trot", gait, whole_cycle(half))
+    return _gait(rig, "trot", gait, whole_cycle(half), mood)
 
 
-def gallop(rig: Rig) -> Clip:
+def gallop(rig: Rig, mood: Mood = PLAIN) -> Clip:
     """The back bends and stretches; two flights a cycle, gathered and stretched out."""
     fore = Step(
         duty=0.20,
@@ -183,20 +183,19 @@ def gallop(rig: Rig) -> Clip:
         ),
     ]
     gait = GaitDiagram(28 / 60, 1.9, ROTARY_GALLOP, hind, dict.fromkeys(_FORE, fore))
-    return _gait(rig, "run", gait, keys)
+    return _gait(rig, "run", gait, keys, mood)
 
 
-def _gait(
-    rig: Rig, name: str, gait: GaitDiagram, keys: Sequence[RigKey], waves: Sequence[Wave] = ()
-) -> Clip:
+def _gait(rig: Rig, name: str, plain: GaitDiagram, keys: Sequence[RigKey], mood: Mood) -> Clip:
+    gait = mood.gait(plain)
     end = gait.period_s
     return make_rig_clip(
         rig,
-        name,
-        keys,
+        mood.named(name),
+        mood.keys(keys),
         steady_travel(end, ahead=gait.stride_m),
         plants=gait_plants(rig, gait),
-        waves=waves,
+        waves=mood.waves(end),
         stage_ends_s=(0.0, 0.0, end, end, end),
         cyclic=True,
     )

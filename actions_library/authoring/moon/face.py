@@ -15,7 +15,7 @@ from actions_library.authoring.displacement import (
 )
 from actions_library.authoring.eyes import eye_meshes, lid_mesh, lids_moved, pupils_scaled
 from actions_library.authoring.moon.motions import JAW_MM, mouth_motions, skin_motions
-from actions_library.authoring.moon.mouth import MOUTH_M, LipGap, closed, lip_front_m, lips
+from actions_library.authoring.moon.mouth import MOUTH_M, MoonLipGap, closed, lip_front_m, lips
 from actions_library.authoring.moon.skeleton import CENTRE_M, EYE
 from actions_library.authoring.solids import (
     Solid,
@@ -116,7 +116,7 @@ def _skin_field(step_m: float) -> Field:
     field.carve(RoundCone(eye, eye, 1.07 * EYE.radius, 1.07 * EYE.radius), 0.006)
     for cone in lips(-0.0015):
         field.add(cone, 0.008)
-    field.carve(LipGap(), 0.002)
+    field.carve(MoonLipGap(), 0.002)
     return field
 
 

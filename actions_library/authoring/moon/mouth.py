@@ -43,7 +43,7 @@ def parting(x: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class LipGap:
+class MoonLipGap:
     """The gap between the lips as modelled."""
 
     def bounds(self) -> Box:

@@ -16,7 +16,7 @@ from actions_library.authoring.keys import LegKey, Place, Turn
 from actions_library.authoring.posing import RATE_HZ
 from actions_library.authoring.rig import Chain, Rig
 from actions_library.authoring.rig_keys import key, mirrored_key, on_both_sides, track_curves
-from actions_library.authoring.rig_posing import make_rig_clip
+from actions_library.authoring.rig_posing import at_half_rate, make_rig_clip
 from actions_library.authoring.stance import standing_still, steady_travel
 from actions_library.authoring.waves import Wave
 from smd.character.kinematics import forward_kinematics
@@ -183,3 +183,14 @@ def test_a_clip_has_the_tracks_of_its_rig():
     )
     assert clip.tracks.names == ("glow", "hum")
     assert clip.tracks.of(["glow"])[30, 0] == pytest.approx(0.9, abs=0.02)
+
+
+def test_half_the_rate_keeps_every_second_frame_and_both_ends():
+    clip = ant_walk()
+    half = at_half_rate(clip)
+    assert (half.rate_hz, half.duration_s) == (0.5 * clip.rate_hz, clip.duration_s)
+    np.testing.assert_allclose(half.rotation_xyzw, clip.rotation_xyzw[::2], atol=1e-15)
+    assert np.array_equal(half.contacts, clip.contacts[::2])
+    assert half.stage_end_frames[-1] == len(half) - 1
+    with pytest.raises(ValueError, match="odd number of frames, got 16"):
+        at_half_rate(at_half_rate(clip))

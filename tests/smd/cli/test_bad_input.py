@@ -114,7 +114,6 @@ def test_an_option_that_makes_no_sense_is_refused(run_smd, stories, option, valu
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (('"action": "', '"action": "moon'), "moon"),
         (('"version": 2', '"version": 99'), "99"),
         (('"smd.score"', '"smd.tale"'), "smd.tale"),
         (('"start_s"', '"begin_s"'), "begin_s|start_s"),
@@ -130,6 +129,18 @@ def test_a_broken_score_is_named(run_smd, tmp_path, stories, change, said):
     line = expect_one_line(code, err)
     assert re.search(said, line), line
     assert sorted(tmp_path.iterdir()) == [score]
+
+
+def test_an_action_that_nobody_has_is_named_and_idled_through(run_smd, tmp_path, stories):
+    text = (stories / "duel.score.json").read_text(encoding="utf-8")
+    score = tmp_path / "duel.score.json"
+    score.write_text(text.replace('"action": "', '"action": "moon', 1), encoding="utf-8")
+    take = ["--recording", stories / "duel.csv"]
+    code, out, _ = run_smd("animate", score, *take, "-o", tmp_path / "out.usda")
+    assert code == 0
+    assert re.search(
+        r"device '\w+': 'moon\w+' at .*its character has no such action, and idles", out
+    )
 
 
 @pytest.mark.parametrize("picture", ["strip.jpg", "nowhere/strip.png"])

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from pxr import Usd
 
 from actions_library.folder import load_library
 from tests.actions_library.importers.test_bvh import ARM
@@ -72,6 +73,48 @@ def test_an_action_without_a_gesture_is_warned_of_unless_a_word_says_that_it_is_
         assert (code, "'walk': no pattern: it will not be recognised" in out) == (0, warned)
 
 
+def test_gestures_are_lent_to_clips_that_are_called_as_actions(run_smd, stories, tmp_path):
+    folder, shelf, walker = tmp_path / "mine", load_library().folder / "clips", tmp_path / "w.usda"
+    with_walk = Usd.Stage.Open(str(shelf / "walk.usdc")).Flatten().ExportToString()
+    walker.write_text(re.sub(r"\bAnimation\b(?=[\">])", "Walk", with_walk))
+    code, out, err = run_smd(
+        *("library", "new", folder, "--character", walker, "--gestures", "humanoid")
+    )
+    assert (code, err) == (0, "")
+    assert "drawn as in humanoid: walk (Walk)" in out
+    code, out, _ = run_smd(
+        *("library", "import", folder, shelf / "bow.usdc", "--action", "bow"),
+        *("--gestures", "humanoid"),
+    )
+    assert code == 0 and "no gesture yet" not in out
+    library = load_library(folder)
+    assert [action.name for action in library.actions] == ["idle", "walk", "bow"]
+    for name in ("walk", "bow"):
+        ours, theirs = library.action(name), load_library().action(name)
+        assert (ours.pattern, ours.travels) == (theirs.pattern, theirs.travels)
+        assert ours.exemplar is not None and theirs.exemplar is not None
+        assert (ours.exemplar.measures == theirs.exemplar.measures).all()
+    assert run_smd("library", "check", "--library", folder)[0] == 0
+    postman = stories / "postman.csv"
+    code, out, _ = run_smd("parse", postman, "--library", folder, "-o", tmp_path / "score.json")
+    assert code == 0 and out.count(" walk ") >= 2 and " bow " in out
+
+
+def test_gestures_of_nobody_are_refused_and_nothing_is_made(run_smd, mine, tmp_path):
+    walk = load_library().folder / "clips" / "walk.usdc"
+    making = ("library", "new", tmp_path / "a", "--character", walk)
+    refused(run_smd(*making, "--gestures", "humanoids"), "humanoids: expected a library's folder")
+    assert not (tmp_path / "a").exists()
+    before = content(mine)
+    importing = ("library", "import", mine, walk, "--action")
+    refused(run_smd(*importing, "walk", "--gestures", tmp_path), "library.json")
+    refused(
+        run_smd(*importing, "stroll", "--gestures", "humanoid"),
+        "gestures: expected an action of walk, run.*got 'stroll'",
+    )
+    assert content(mine) == before
+
+
 def test_an_action_that_is_there_needs_replace_and_keeps_its_gesture(run_smd, tmp_path):
     import shutil
 
@@ -128,6 +171,15 @@ def test_a_folder_with_other_things_stays_what_it_is(run_smd, tmp_path):
     (tmp_path / "thesis" / "chapter1.tex").write_text("years of work")
     refused(run_smd("library", "new", tmp_path / "thesis", "--character", SHIPPED), "thesis")
     assert [p.name for p in (tmp_path / "thesis").iterdir()] == ["chapter1.tex"]
+
+
+def test_a_fox_walks_and_runs_as_people_draw_it(run_smd, shared_data, tmp_path):
+    fox = shared_data / "clips" / "gltf" / "Fox.glb"
+    made = ("library", "new", tmp_path / "fox", "--character", fox, "--gestures", "humanoid")
+    code, out, err = run_smd(*made)
+    assert (code, err) == (0, "")
+    assert "drawn as in humanoid: walk (Walk), run (Run)" in out
+    assert run_smd("library", "check", "--library", tmp_path / "fox")[0] == 0
 
 
 def test_showing_draws_gesture_and_clip(run_smd, tmp_path):

@@ -23,7 +23,7 @@ LIBRARY = load_library(FOLDER)
 def test_no_effort_bends_the_trunk_into_the_ground(axis, pole):
     clip = LIBRARY.clip("hump")
     study = study_of(clip, body_of(LIBRARY.clip("idle")))
-    shown = expressive(study, Effort(**{axis: pole}), travels=True)
+    (shown,) = expressive(study, [Effort(**{axis: pole})], travels=True)
     segments = [j for j, name in enumerate(clip.skeleton.joints) if name.startswith("segment_")]
 
     def lowest_m(one):
@@ -36,7 +36,7 @@ def test_no_effort_bends_the_trunk_into_the_ground(axis, pole):
 def test_weight_shows_in_both_feelers_alike():
     clip = LIBRARY.clip("walk")
     study = study_of(clip, body_of(LIBRARY.clip("idle")))
-    shown = expressive(study, Effort(weight=1.0), travels=True)
+    (shown,) = expressive(study, [Effort(weight=1.0)], travels=True)
     left, right = (clip.skeleton.index(f"{side}_feeler") for side in ("left", "right"))
 
     def changed_deg(j):

@@ -290,12 +290,6 @@ def faulty(**changes):
     ("score", "message"),
     [
         (
-            faulty(action="wlak"),
-            r"device 'fox': phrases\[0\]\.action: expected one of walk, run, .*, found 'wlak'; "
-            "did you mean 'walk'",
-        ),
-        (faulty(action="zzz"), r"found 'zzz'$"),
-        (
             faulty(end_s=99.0),
             r"phrases\[0\]: expected times within the device's 0\.000 to \d+\.\d+ s, found 'walk' "
             r"from 1\.000 to 99\.000 s",
@@ -308,6 +302,22 @@ def test_a_score_that_does_not_fit_is_refused_by_name(take, library, score, mess
     with pytest.raises(ScoreError, match=message) as caught:
         animate(score, take[0], library)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("action", "ends"), [("wlak", "and idles; did you mean 'walk'?"), ("zzz", "and idles")]
+)
+def test_what_a_character_lacks_is_idled_through_and_named(take, library, action, ends):
+    score, nothing = faulty(action=action), Score((Part("fox"),))
+    performance = animate(score, take[0], library)
+    (said,) = performance.warnings
+    assert said.startswith(f"device 'fox': {action!r} at 1.00 s: its character has no such action")
+    assert said.endswith(ends)
+    still = animate(nothing, take[0], library)
+    for one, other in zip(performance.actors[0].poses, still.actors[0].poses, strict=True):
+        assert np.array_equal(one, other)
+    # the Score that is kept with the performance has the phrase
+    assert f'"{action}"' in performance.source["score"]
 
 
 def test_a_phrase_that_ends_a_hair_after_the_recording_is_played(take, library):

@@ -335,3 +335,20 @@ def test_gaits_of_one_way_change_where_they_were_drawn_to_however_fast_they_are(
     went_m = np.diff(np.interp(edges_s, film_s, root_m))
     drawn_m = 10.0 * np.diff(np.interp(cuts_s, time_s, way_m))
     assert went_m == pytest.approx(drawn_m, rel=0.1, abs=0.15)
+
+
+def test_a_faster_gait_is_of_the_same_manner():
+    dog = smd.load_library("dog")
+    slow = ("walk", "walk_happy", "walk_sad")
+    phrases = [Phrase(name, float(k), k + 0.5) for k, name in enumerate(slow)]
+    faster = with_faster(repertoire(dog, phrases, expressiveness=0.0), dog).faster
+    assert faster["walk"] == ("trot", "run")
+    assert faster["walk_happy"] == ("trot_happy", "run_happy")
+    assert faster["walk_sad"] == ("trot_sad", "run_sad")
+
+
+def test_a_gait_that_goes_another_way_is_no_manner(library):
+    phrases = [Phrase("walk_backward", 0.0, 0.5), Phrase("walk", 1.0, 1.5)]
+    faster = with_faster(repertoire(library, phrases, expressiveness=0.0), library).faster
+    assert faster["walk_backward"] == ("run_backward", "sneak", "walk", "run")
+    assert faster["walk"] == ("run",)
