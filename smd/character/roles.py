@@ -118,8 +118,7 @@ def plan_of(skeleton: Skeleton) -> BodyPlan:
 def without_digits(skeleton: Skeleton) -> IntArray:
     """Return all joints but those beyond a hand or a foot.
 
-    Fingers are many, and quick: they neither say how far a body is from a pose, nor how long it
-    takes to get there.
+    Fingers are quick: their turns do not say how long a body takes to get into a pose.
     """
     digits: set[int] = set()
     for limb in plan_of(skeleton).limbs:
@@ -129,6 +128,19 @@ def without_digits(skeleton: Skeleton) -> IntArray:
                 beyond.add(joint)
         digits |= beyond - {limb.end}
     kept = np.array([joint for joint in range(len(skeleton)) if joint not in digits])
+    kept.flags.writeable = False
+    return kept
+
+
+@lru_cache(maxsize=16)
+def to_knuckles(skeleton: Skeleton) -> IntArray:
+    """Return `without_digits`, and the first joint beyond each hand and foot.
+
+    Fingers are many: in a mean over places, those of a hand would count more than all the rest.
+    """
+    limbs = plan_of(skeleton).limbs
+    knuckles = {joint for limb in limbs for joint in limb.chain[limb.chain.index(limb.end) :][:2]}
+    kept = np.union1d(without_digits(skeleton), np.array(sorted(knuckles), dtype=np.int64))
     kept.flags.writeable = False
     return kept
 

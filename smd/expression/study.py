@@ -10,7 +10,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics
 from smd.character.poses import Poses, mixed
-from smd.character.roles import without_digits
+from smd.character.roles import to_knuckles
 from smd.expression.aim import Aim, aim_of, freedom, progress, seen_from_root, swing
 from smd.expression.body import Body
 from smd.expression.reaching import bearing
@@ -64,7 +64,7 @@ def study_of(clip: Clip, body: Body) -> Study:
     """Return the study of a neutral clip."""
     _, place = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
     seen = seen_from_root(clip, place)
-    moving = seen[:, without_digits(clip.skeleton)]
+    moving = seen[:, to_knuckles(clip.skeleton)]
     hands = place[:, [arm.hand for arm in body.arms]]
     # A body without legs may have its pelvis for its lowest joint: it never lies down.
     height, stir = np.ones(len(clip)), 1.0

@@ -19,7 +19,7 @@ from smd.character.clip import Clip
 from smd.character.kinematics import forward_kinematics, joints_in_world
 from smd.character.mass import Mass
 from smd.character.poses import Poses, sampled, sampled_tracks
-from smd.character.roles import without_digits
+from smd.character.roles import to_knuckles
 from smd.character.tracks import Tracks
 from smd.expression.body import Body, body_of
 from smd.expression.expressive import expressive
@@ -401,7 +401,7 @@ def _returning(clip: Clip, *, travels: bool) -> tuple[float, Swing | None]:
     """Return when a neutral clip is near to its last pose, and what it repeats."""
     _, place_m = forward_kinematics(clip.skeleton, clip.rotation_xyzw, clip.translation_m)
     swing = None if travels or clip.cyclic else swing_of(clip, place_m)
-    return near_share(clip, place_m[:, without_digits(clip.skeleton)]), swing
+    return near_share(clip, place_m[:, to_knuckles(clip.skeleton)]), swing
 
 
 def _as(neutral: Piece, clip: Clip) -> tuple[float, Swing | None]:

@@ -10,7 +10,7 @@ from smd.acting.transitions import (
     transition_s,
 )
 from smd.character.poses import Poses, sampled
-from smd.character.roles import without_digits
+from smd.character.roles import to_knuckles, without_digits
 from smd.geometry.rotations import (
     inverse,
     multiply,
@@ -91,3 +91,11 @@ def test_fingers_do_not_hold_a_transition_up(library):
     fist = Poses(turned, pose.translation_m)
     assert transition_s(pose, fist) == pytest.approx(2.0 / TURNING_RAD_S)
     assert transition_s(pose, fist, without_digits(skeleton)) == TRANSITION_S
+
+
+def test_a_hand_is_as_one_joint_and_its_knuckle(library):
+    skeleton = library.character.skeleton
+    beyond = set(to_knuckles(skeleton)) - set(without_digits(skeleton))
+    assert {skeleton.joints[joint] for joint in beyond} == {
+        f"{side}_{name}" for side in ("left", "right") for name in ("middle_proximal", "toes")
+    }

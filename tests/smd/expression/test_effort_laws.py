@@ -38,7 +38,7 @@ LIBRARY = load_library()
 BODY = body_of(LIBRARY.clip("idle"))
 EVERY = [action.name for action in LIBRARY.actions]
 ONCE = [name for name in EVERY if not LIBRARY.clip(name).cyclic]
-TOLERANCE = {"time": 0.0, "weight": 0.035, "space": 0.002, "flow": 0.025}
+TOLERANCE = {"time": 0.0, "weight": 0.03, "space": 0.002, "flow": 0.025}
 """How far a measure may go the wrong way in a step: an execution ends on a frame, which is as much
 as 2 % of the time before it; and peaks lie between frames."""
 
