@@ -132,7 +132,7 @@ def test_a_rig_needs_clips_of_its_character():
         CharacterRig(puppet(), [])
     other = replace(
         waving_clip(),
-        skeleton=replace(puppet().skeleton, joints=tuple(map(str, range(27)))),
+        skeleton=replace(puppet().skeleton, joints=tuple(map(str, range(len(puppet().skeleton))))),
         contact_joints=(),
         contacts=np.zeros((30, 0), bool),
     )

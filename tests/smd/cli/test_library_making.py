@@ -36,12 +36,13 @@ def test_a_new_library_has_a_character_that_idles(run_smd, mine):
     code, out, _ = run_smd("library", "list", "--library", mine)
     assert (code, out.split()[0]) == (0, "idle")
     assert run_smd("library", "check", "--library", mine)[0] == 0
-    assert len(load_library(mine).character.skeleton) == 27  # its root is one already
+    shipped = load_library().character.skeleton
+    assert len(load_library(mine).character.skeleton) == len(shipped)  # its root is one already
 
 
 def test_what_was_found_out_is_said(run_smd, tmp_path):
     _, out, _ = run_smd("library", "new", tmp_path / "a", "--character", SHIPPED)
-    assert "27 joints" in out
+    assert f"{len(load_library().character.skeleton)} joints" in out
     assert "left leg: left_upper_leg, left_lower_leg, left_foot" in out
     assert "pelvis hips, chest upper_chest, head head" in out
 
