@@ -246,6 +246,7 @@ def test_no_edge_is_torn_in_a_deep_squat(shipped):
         assert (after / before).max() < 6.0, name  # the crotch stretches fivefold
 
 
+@pytest.mark.rebuild
 def test_making_the_figure_again_gives_the_same_bytes(coarse):
     again = humanoid_character(step_m=COARSE_STEP_M)
     for first, second in zip(coarse.meshes, again.meshes, strict=True):

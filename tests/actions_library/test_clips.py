@@ -296,6 +296,7 @@ def test_a_flyer_lies_on_the_air():
     assert abs(hips[:, 1].mean() - 1.05) < 0.10
 
 
+@pytest.mark.rebuild
 def test_authoring_gives_the_same_clips_each_time():
     again = {clip.name: clip for clip in humanoid_clips(humanoid_skeleton())}
     for name, clip in CLIPS.items():

@@ -236,6 +236,7 @@ def test_a_library_of_version_1_is_written_again_as_the_present_one(tmp_path):
     assert replace(new.action("walk")) == old.action("walk")
 
 
+@pytest.mark.rebuild
 def test_the_shipped_exemplars_are_what_the_authoring_makes():
     from actions_library.authoring.actions import HUMANOID_ACTIONS
     from actions_library.authoring.examples import with_examples

@@ -275,6 +275,7 @@ def test_a_file_is_not_a_library(library):
         load_library(library.folder / "library.json")
 
 
+@pytest.mark.rebuild
 def test_the_shipped_library_is_what_the_authoring_makes():
     from actions_library.authoring.actions import HUMANOID_ACTIONS
     from actions_library.authoring.clips import humanoid_clips

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from actions_library.authoring.clips import humanoid_clips
 from actions_library.authoring.humanoid import humanoid_skeleton
 from actions_library.authoring.mass import centre_of_mass as centre_by_name
+from actions_library.folder import load_library
 from benchmarks.physics import (
     RATE_HZ,
     Mechanics,
@@ -49,7 +49,7 @@ def test_the_anatomy_that_roles_find_is_the_one_that_names_say():
 
 
 def test_the_mass_centre_is_that_of_the_clips():
-    clip = next(c for c in humanoid_clips(SKELETON) if c.name == "slash")
+    clip = load_library().clip("slash")
     _, place = forward_kinematics(SKELETON, clip.rotation_xyzw, clip.translation_m)
     np.testing.assert_allclose(
         centre_of_mass(place, ANATOMY), centre_by_name(SKELETON, place), atol=1e-12

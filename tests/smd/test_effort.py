@@ -197,6 +197,7 @@ def test_the_shipped_model_was_made_by_its_command_from_these_people():
         assert taught.performers == SIMULATED_PEOPLE
 
 
+@pytest.mark.rebuild
 def test_learning_from_these_people_gives_the_shipped_weights_again():
     """``smd laban train --simulated`` makes the whole model again, byte for byte."""
     examples = windowed_examples()

@@ -142,7 +142,8 @@ def answered(
         return float(np.median(np.abs(asked_s[nearest(start_s)] - own_s - start_s)))
 
     start_s = min(asked_s[:8], key=misfit_s)
-    beside = np.clip(nearest(start_s)[:, None] + np.arange(-2, 3), 0, len(asked_s) - 1)
+    # A machine that stalls may ask several times before a frame is written.
+    beside = np.clip(nearest(start_s)[:, None] + np.arange(-8, 9), 0, len(asked_s) - 1)
     there_m = played(asked_s[beside].ravel()).reshape(*beside.shape, 3)
     off_m = np.linalg.norm(there_m - position_m[:, None], axis=2)
     off_m += 1e-3 * np.abs(asked_s[beside] - (own_s + start_s)[:, None])  # at rest, the nearest
