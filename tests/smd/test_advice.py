@@ -67,6 +67,7 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
+@pytest.mark.long
 def test_the_option_that_mends_a_mistake_is_named_and_mends_it(library, tmp_path, mistake):
     change, option = MISTAKES[mistake]
     path = tmp_path / "story.csv"

@@ -236,6 +236,7 @@ def test_the_shipped_model_tells_people_it_has_not_met():
         assert reading[meant < 0].mean() < neither.mean() < reading[meant > 0].mean()
 
 
+@pytest.mark.long
 def test_real_people_are_told_apart_by_a_model_of_other_real_people(shared_data):
     from smd.formats import SourceFrame, read_recording
 

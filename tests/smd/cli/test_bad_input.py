@@ -150,6 +150,7 @@ def test_a_picture_that_cannot_be_is_refused(run_smd, tmp_path, picture):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.long
 def test_thirty_minutes_of_stillness_is_no_error(run_smd, tmp_path):
     take, output = tmp_path / "still.csv", tmp_path / "still.usdc"
     rows = "".join(ROW.format(t=round(i / 60, 4)) for i in range(30 * 60 * 60))

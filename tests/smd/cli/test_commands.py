@@ -63,6 +63,7 @@ def test_library_list_names_every_action(run_smd):
     assert all(name in text for name in names)
 
 
+@pytest.mark.long
 def test_demo_makes_what_it_says(run_smd, tmp_path):
     pytest.importorskip("pyvista")
     code, out, err = run_smd("demo", "-o", tmp_path / "demo")

@@ -252,6 +252,7 @@ def test_a_failure_while_writing_leaves_the_library_as_it_was(run_smd, takes, my
     assert content(my) == before
 
 
+@pytest.mark.long
 def test_a_hundred_examples_are_learned(run_smd, takes, tmp_path):
     folder = tmp_path / "many"
     code, out, _ = run_smd("learn", "bow", *takes("bow", *range(100)), "--library", folder)

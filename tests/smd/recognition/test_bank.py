@@ -83,6 +83,7 @@ def test_occurrences_are_the_nearest_and_shortest_parts(costs, library, word):
 
 @pytest.mark.parametrize("costs", COSTS, ids=by_name)
 @pytest.mark.parametrize("seed", range(2))
+@pytest.mark.long
 def test_occurrences_are_the_nearest_and_shortest_parts_of_long_strings(costs, seed):
     rng = np.random.default_rng(seed)
     tokens = sorted({token for pattern in SHIPPED.values() for token in pattern.tokens()})

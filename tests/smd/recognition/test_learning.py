@@ -104,6 +104,7 @@ def test_there_are_several_ways_only_where_no_place_is_shared(given):
 
 
 @pytest.mark.parametrize("count", [3, 10])
+@pytest.mark.long
 def test_more_examples_do_not_make_it_accept_everything(count):
     """Bound: 3 % of random strings of a pattern's own tokens, 1 % of other gestures."""
     learned = {action: learn_pattern(played(action, count)) for action in ACTIONS}

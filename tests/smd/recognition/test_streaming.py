@@ -133,6 +133,7 @@ def test_what_was_not_drawn_is_nothing():
     assert stream.finish() == []
 
 
+@pytest.mark.long
 def test_a_long_stream_does_not_grow():
     doodle = row([8, 0])
     stream = RecognitionStream(SPOTTER)
