@@ -17,6 +17,7 @@ from actions_library.authoring.rigging import LEFT, RIGHT, Point
 from smd.character.blend_shape import BlendShape
 from smd.character.character import Mesh
 from smd.geometry.arrays import FloatArray
+from smd.geometry.easing import smootherstep
 from smd.geometry.rotations import normalized, quaternion_about, rotate
 
 Motion = Callable[[FloatArray], FloatArray]
@@ -29,8 +30,7 @@ _IMAGE = np.array([-1.0, 1.0, 1.0])
 
 def step(value: FloatArray, low: ArrayLike, high: ArrayLike) -> FloatArray:
     """Return 0 below ``low``, 1 above ``high`` and a step between whose ends are smooth."""
-    t = np.clip((value - np.asarray(low)) / (np.asarray(high) - np.asarray(low)), 0.0, 1.0)
-    return np.asarray(t**3 * (t * (6.0 * t - 15.0) + 10.0))
+    return smootherstep((value - np.asarray(low)) / (np.asarray(high) - np.asarray(low)))
 
 
 def near(points: FloatArray, centre: Point, reach_m: Point) -> FloatArray:

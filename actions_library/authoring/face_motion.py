@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from actions_library.authoring.displacement import near, step
 from actions_library.authoring.face_shape import (
     EYE_M,
     EYE_RADIUS_M,
@@ -81,8 +82,8 @@ def resting(modelled_m: FloatArray) -> FacePoints:
     # Behind the lips is a wall from the one to the other: there the one passes into the other.
     side = np.clip(above / np.maximum(0.3 * gap, 1e-9), -1.0, 1.0)
     depth = lip_front_m(x) - z
-    moved = np.minimum(gap, 0.985 * np.abs(above)) * (1.0 - _step(depth, 0.007, 0.013))
-    moved = moved * (1.0 - _step(np.abs(above), gap + 0.009, 0.032))
+    moved = np.minimum(gap, 0.985 * np.abs(above)) * (1.0 - step(depth, 0.007, 0.013))
+    moved = moved * (1.0 - step(np.abs(above), gap + 0.009, 0.032))
     return FacePoints(modelled_m - np.outer(np.sign(above) * moved, [0.0, 1.0, 0.0]), side)
 
 
@@ -126,21 +127,9 @@ def _reflected(offsets: FloatArray, mirror: NDArray[np.int64]) -> FloatArray:
     return offsets[mirror] * np.array([-1.0, 1.0, 1.0])
 
 
-def _step(value: FloatArray, low: FloatArray | float, high: FloatArray | float) -> FloatArray:
-    """Return 0 below ``low``, 1 above ``high`` and a smooth step between."""
-    t = np.clip((value - low) / (high - low), 0.0, 1.0)
-    return np.asarray(t**3 * (t * (6.0 * t - 15.0) + 10.0))
-
-
-def _near(points: FloatArray, centre: Vector, reach_m: Vector) -> FloatArray:
-    """Return 1 at a landmark, 0 from an ellipsoid around it on, ``(p, 1)``."""
-    away2 = (((points - np.array(centre)) / np.array(reach_m)) ** 2).sum(axis=1, keepdims=True)
-    return np.asarray(np.maximum(1.0 - away2, 0.0) ** 3)
-
-
 def _pull(face: FacePoints, centre: Vector, reach_m: Vector, by_mm: Vector) -> FloatArray:
     """Return how points follow a landmark that moves (out, up, ahead; mm)."""
-    return _near(face.at_m, centre, reach_m) * (0.001 * np.array(by_mm))
+    return near(face.at_m, centre, reach_m) * (0.001 * np.array(by_mm))
 
 
 # Lids -------------------------------------------------------------------------------------------
@@ -160,14 +149,14 @@ def _lids(face: FacePoints, upper_share: float, lower_share: float, more_rad: fl
     upper, lower = lid_elevations(u)
     open_rad = np.maximum(upper - lower, 0.0)
     meet = lower + 0.22 * open_rad
-    fall = -upper_share * (0.78 * open_rad + more_rad * _step(open_rad, 0.0, 0.3))
+    fall = -upper_share * (0.78 * open_rad + more_rad * step(open_rad, 0.0, 0.3))
     rise = lower_share * 0.22 * open_rad
     by_rad = np.where(
         elevation > meet,
-        fall * (1.0 - _step(elevation, upper, upper + 0.85)),
-        rise * _step(elevation, lower - 0.9, lower),
+        fall * (1.0 - step(elevation, upper, upper + 0.85)),
+        rise * step(elevation, lower - 0.9, lower),
     )
-    by_rad = by_rad * (1.0 - _step(away, EYE_RADIUS_M + 0.0038, EYE_RADIUS_M + 0.0105))
+    by_rad = by_rad * (1.0 - step(away, EYE_RADIUS_M + 0.0038, EYE_RADIUS_M + 0.0105))
     y, z = face.at_m[:, 1] - EYE_M[1], face.at_m[:, 2] - EYE_M[2]
     cosine, sine = np.cos(by_rad), np.sin(by_rad)
     moved = [np.zeros_like(y), cosine * y + sine * z - y, cosine * z - sine * y - z]
@@ -232,7 +221,7 @@ def _jaw_turned(points: FloatArray) -> FloatArray:
 
 
 def _on_lips(face: FacePoints, reach_m: Vector = (0.034, 0.024, 0.036)) -> FloatArray:
-    return _near(face.at_m, (0.0, MOUTH_M[1], 0.088), reach_m)
+    return near(face.at_m, (0.0, MOUTH_M[1], 0.088), reach_m)
 
 
 def _below_lips(face: FacePoints) -> FloatArray:
@@ -245,12 +234,12 @@ def _below_lips(face: FacePoints) -> FloatArray:
     far = 0.5 - 0.5 * face.side
     lip = far * (1.0 - 0.55 * along) + (1.0 - far) * 0.45 * along
     away = np.abs(face.at_m[:, 1] - lip_line_m(x))
-    return np.asarray(lip + (far - lip) * _step(away, 0.0, 0.036))
+    return np.asarray(lip + (far - lip) * step(away, 0.0, 0.036))
 
 
 def _jaw_open(face: FacePoints) -> FloatArray:
     _, y, z = face.at_m.T
-    jaw = _below_lips(face) * _step(z, -0.004, 0.040) * _step(y, 1.450, 1.530)
+    jaw = _below_lips(face) * step(z, -0.004, 0.040) * step(y, 1.450, 1.530)
     narrower = sum(
         _pull(face, (out * 0.040, 1.566, 0.072), (0.034, 0.040, 0.045), (out * -5.0, 0.0, 0.0))
         for out in (1.0, -1.0)
@@ -290,7 +279,7 @@ def _funnel(face: FacePoints) -> FloatArray:
 
 def _left_half(face: FacePoints) -> FloatArray:
     """Return what of the lips is the left side's, ``(p, 1)``; with the right side's it is 1."""
-    return _step(face.at_m[:, :1], -0.012, 0.012)
+    return step(face.at_m[:, :1], -0.012, 0.012)
 
 
 def _press(face: FacePoints) -> FloatArray:

@@ -78,6 +78,11 @@ def rig_curve(
     )
 
 
+def rekeyed(time: float, one: RigKey) -> RigKey:
+    """Return a key at another time."""
+    return replace(one, at=time)
+
+
 def track_curves(
     keys: Iterable[RigKey], tracks: Iterable[str], frames: int, rate_hz: float, *, cyclic: bool
 ) -> FloatArray:

@@ -7,10 +7,9 @@ from pathlib import Path
 from actions_library.authoring.caterpillar import crawls, standing
 from actions_library.authoring.caterpillar.body import caterpillar_character
 from actions_library.authoring.caterpillar.skeleton import caterpillar_rig
+from actions_library.authoring.creature import write_creature
 from actions_library.authoring.rig import Rig
-from actions_library.folder import load_library, write_library
-from actions_library.gestures import with_gestures
-from actions_library.library import Credit, Library
+from actions_library.library import Library
 from smd.cast import IDLE
 from smd.character.clip import Clip
 from smd.recognition.action import Action
@@ -47,12 +46,6 @@ def caterpillar_clips(rig: Rig) -> tuple[Clip, ...]:
 def write_caterpillar(folder: Path) -> Library:
     """Make the caterpillar, its clips and its actions, and write them as a library."""
     rig = caterpillar_rig()
-    clips = {clip.name: clip for clip in caterpillar_clips(rig)}
-    return write_library(
-        folder,
-        name="caterpillar",
-        character=caterpillar_character(rig.skeleton),
-        clips=clips,
-        actions=with_gestures(CATERPILLAR_ACTIONS, load_library()),
-        credits=dict.fromkeys(clips, Credit("Spatial Motion Doodles", "MIT")),
+    return write_creature(
+        folder, caterpillar_character(rig.skeleton), caterpillar_clips(rig), CATERPILLAR_ACTIONS
     )

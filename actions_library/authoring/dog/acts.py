@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from actions_library.authoring.dog.standing import HOCKS_DOWN, SIT, STAND, at, in_place, tucked
+from actions_library.authoring.dog.standing import HOCKS_DOWN, SIT, STAND, in_place, tucked
 from actions_library.authoring.feet import ALWAYS_S, OnBall, Plant, Via
 from actions_library.authoring.gait import standing_plants
 from actions_library.authoring.keys import LegKey, Place, Turn
 from actions_library.authoring.rig import Rig
-from actions_library.authoring.rig_keys import RigKey, key, on_both_sides
+from actions_library.authoring.rig_keys import RigKey, key, on_both_sides, rekeyed
 from actions_library.authoring.waves import Wave
 from smd.character.clip import Clip
 
@@ -28,7 +28,7 @@ def look(rig: Rig) -> Clip:
         key(1.80, place=Place(left=-0.010, up=-0.010)),
         on_both_sides(key(1.60, left_ear=Turn(lean=-4.0, tilt=18.0))),
         key(2.25, head=Turn(yaw=-62.0, lean=-8.0, tilt=-6.0), spine=Turn(yaw=-9.0)),
-        at(end, STAND),
+        rekeyed(end, STAND),
     ]
     return in_place(rig, "look", keys, standing_plants(rig), (0.2, 0.6, 2.25, 2.6, end))
 
@@ -46,7 +46,7 @@ def shake(rig: Rig) -> Clip:
         STAND,
         key(0.25, place=Place(up=-0.045), head=Turn(lean=22.0), tail=Turn(lean=0.0)),
         key(1.45, place=Place(up=-0.050), head=Turn(lean=18.0), tail=Turn(lean=0.0)),
-        at(end, STAND),
+        rekeyed(end, STAND),
     ]
     waves = [
         Wave("head", "tilt", 12.0, tip=30.0, wavelength=4.0, per_cycle=times),
@@ -73,7 +73,7 @@ def bark(rig: Rig) -> Clip:
             key(start + 0.26, jaw=Turn(), head=Turn(lean=-2.0)),
             on_both_sides(key(start + 0.34, left_ear=Turn(lean=-4.0, tilt=12.0))),
         ]
-    keys += [key(1.3, jaw=Turn()), at(end, STAND)]
+    keys += [key(1.3, jaw=Turn()), rekeyed(end, STAND)]
     return in_place(rig, "bark", keys, standing_plants(rig), (0.15, 0.3, 1.11, 1.3, end))
 
 
@@ -88,10 +88,10 @@ def yawn(rig: Rig) -> Clip:
         key(1.60, jaw=Turn(lean=46.0), head=Turn(lean=-30.0, tilt=5.0), tail=Turn(lean=-6.0)),
         key(1.12, place=Place(up=-0.016, ahead=-0.014)),
         back,
-        at(1.7, back),
+        rekeyed(1.7, back),
         key(2.0, jaw=Turn(lean=2.0), head=Turn(lean=4.0), spine=Turn(lean=1.0)),
         key(2.12, jaw=Turn()),
-        at(end, STAND),
+        rekeyed(end, STAND),
     ]
     return in_place(rig, "yawn", keys, standing_plants(rig), (0.2, 0.35, 1.6, 2.0, end))
 
@@ -115,8 +115,8 @@ def bow(rig: Rig) -> Clip:
         key(0.20, place=Place(up=-0.004, ahead=0.008), head=Turn(lean=4.0)),
         low,
         key(1.1, head=Turn(yaw=7.0, lean=-10.0)),
-        at(1.55, low),
-        at(end, STAND),
+        rekeyed(1.55, low),
+        rekeyed(end, STAND),
     ]
     wags = [Wave("tail", "yaw", 4.0, tip=10.0, wavelength=2.0, per_cycle=10)]
     return in_place(rig, "bow", keys, standing_plants(rig), (0.2, 0.35, 0.8, 1.55, end), wags)
@@ -145,10 +145,10 @@ def wave(rig: Rig) -> Clip:
         on_both_sides(key(0.5, left_ear=Turn(lean=-4.0, tilt=12.0))),
         key(0.36, left_fore=lifted),
         *strokes,
-        at(2.15, leans),
+        rekeyed(2.15, leans),
         on_both_sides(key(2.1, left_ear=Turn(lean=-4.0, tilt=12.0))),
         key(2.30, left_fore=lifted),
-        at(end, STAND),
+        rekeyed(end, STAND),
     ]
     plants = standing_plants(rig)
     (stand,) = plants["left_fore"]
@@ -165,16 +165,16 @@ def scratch(rig: Rig) -> Clip:
     end, sat, first, times = 4.7, 1.05, 1.62, 6
     keys = [
         STAND,
-        at(0.15, STAND),
+        rekeyed(0.15, STAND),
         key(0.45, place=Place(up=-0.03), head=Turn(lean=10.0), tail=Turn(lean=22.0)),
-        at(sat, SIT),
+        rekeyed(sat, SIT),
         *_bent_to_the_paw(first - 0.05),
         *_bent_to_the_paw(first + 0.22 * times),
         *_strokes(first, times),
-        at(3.42, SIT),
+        rekeyed(3.42, SIT),
         key(3.55, head=Turn(lean=12.0)),
-        at(4.27, STAND),
-        at(end, STAND),
+        rekeyed(4.27, STAND),
+        rekeyed(end, STAND),
     ]
     plants = standing_plants(rig)
     (stand,) = plants["right_hind"]

@@ -9,12 +9,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from actions_library.authoring.dog.standing import STAND, at
+from actions_library.authoring.dog.standing import STAND
 from actions_library.authoring.feet import Plant, Via
 from actions_library.authoring.gait import standing_plants
 from actions_library.authoring.keys import Place, Turn
 from actions_library.authoring.rig import Rig
-from actions_library.authoring.rig_keys import RigKey, key, on_both_sides
+from actions_library.authoring.rig_keys import RigKey, key, on_both_sides, rekeyed
 from actions_library.authoring.rig_posing import make_rig_clip
 from actions_library.authoring.stance import moved_in_one_go
 from smd.character.clip import Clip
@@ -102,7 +102,7 @@ def _falling(off: Place, down: Place, flight_s: float) -> Iterator[RigKey]:
 def _stood(end: float, far: float) -> Iterator[RigKey]:
     """Yield keys of standing at the end of the way."""
     for time in (end - 0.25, end):
-        still = at(time, STAND)
+        still = rekeyed(time, STAND)
         place = still.parts["place"]
         assert isinstance(place, Place)
         yield RigKey(time, {**still.parts, "place": Place(place.left, place.up, far)})

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from actions_library.authoring.creature import write_creature
 from actions_library.authoring.dog import acts, gaits, jumps, standing
 from actions_library.authoring.dog.body import dog_character
 from actions_library.authoring.dog.moods import HAPPY, PLAIN, SAD, Mood
 from actions_library.authoring.dog.skeleton import dog_rig
 from actions_library.authoring.rig import Rig
 from actions_library.authoring.rig_posing import at_half_rate
-from actions_library.folder import load_library, write_library
-from actions_library.gestures import with_gestures
-from actions_library.library import Credit, Library
+from actions_library.library import Library
 from smd.cast import IDLE
 from smd.character.clip import Clip
 from smd.recognition.action import Action
@@ -92,12 +91,4 @@ def dog_clips(rig: Rig) -> tuple[Clip, ...]:
 def write_dog(folder: Path) -> Library:
     """Make the dog, its clips and its actions, and write them as a library."""
     rig = dog_rig()
-    clips = {clip.name: clip for clip in dog_clips(rig)}
-    return write_library(
-        folder,
-        name="dog",
-        character=dog_character(rig.skeleton),
-        clips=clips,
-        actions=with_gestures(DOG_ACTIONS, load_library()),
-        credits=dict.fromkeys(clips, Credit("Spatial Motion Doodles", "MIT")),
-    )
+    return write_creature(folder, dog_character(rig.skeleton), dog_clips(rig), DOG_ACTIONS)

@@ -5,7 +5,7 @@ It stands on its toes: what looks like a knee turned round is its ankle (hind) o
 
 from __future__ import annotations
 
-from actions_library.authoring.legs import BEHIND, RigLeg
+from actions_library.authoring.quadruped import fore_leg, hind_leg
 from actions_library.authoring.rig import Chain, Rig
 from actions_library.authoring.rigging import JointRow, skeleton_of, with_right_side
 
@@ -57,30 +57,5 @@ def dog_rig() -> Rig:
             ),
             Chain("tail", tuple(f"tail_{k}" for k in range(1, 6)), lag_s=0.04),
         ),
-        legs=(*(_hind(side) for side in sides), *(_fore(side) for side in sides)),
-    )
-
-
-def _hind(side: str) -> RigLeg:
-    return RigLeg(
-        f"{side}_hind",
-        f"{side}_hip",
-        f"{side}_knee",
-        f"{side}_hock",
-        f"{side}_hind_toes",
-        on_toes=True,
-    )
-
-
-def _fore(side: str) -> RigLeg:
-    return RigLeg(
-        f"{side}_fore",
-        f"{side}_shoulder",
-        f"{side}_elbow",
-        f"{side}_wrist",
-        f"{side}_fore_toes",
-        blade=f"{side}_shoulder_blade",
-        blade_share=0.45,
-        knee=BEHIND,
-        on_toes=True,
+        legs=(*(hind_leg(side) for side in sides), *(fore_leg(side) for side in sides)),
     )

@@ -9,7 +9,7 @@ from actions_library.authoring.feet import ALWAYS_S, OnBall, Plant, Via
 from actions_library.authoring.gait import standing_plants
 from actions_library.authoring.keys import Place, Turn
 from actions_library.authoring.rig import Rig
-from actions_library.authoring.rig_keys import RigKey, key, on_both_sides
+from actions_library.authoring.rig_keys import RigKey, key, on_both_sides, rekeyed
 from actions_library.authoring.rig_posing import make_rig_clip
 from actions_library.authoring.stance import standing_still
 from actions_library.authoring.waves import Wave
@@ -130,11 +130,11 @@ def sit_down(rig: Rig) -> Clip:
     end = 1.7
     keys = [
         STAND,
-        at(0.20, STAND),
+        rekeyed(0.20, STAND),
         key(0.50, place=Place(up=-0.02), head=Turn(lean=12.0), tail=Turn(lean=20.0)),
         on_both_sides(key(0.75, left_ear=Turn(lean=10.0, tilt=6.0))),
-        at(1.15, SIT),
-        at(end, SIT),
+        rekeyed(1.15, SIT),
+        rekeyed(end, SIT),
     ]
     plants = standing_plants(rig)
     for leg, start in (("left_hind", 0.25), ("right_hind", 0.45)):
@@ -149,11 +149,11 @@ def stand_up(rig: Rig) -> Clip:
     end = 1.6
     keys = [
         SIT,
-        at(0.15, SIT),
+        rekeyed(0.15, SIT),
         key(0.35, head=Turn(lean=14.0)),
         on_both_sides(key(0.6, left_ear=Turn(lean=12.0, tilt=6.0))),
-        at(1.05, STAND),
-        at(end, STAND),
+        rekeyed(1.05, STAND),
+        rekeyed(end, STAND),
     ]
     plants = standing_plants(rig)
     for leg, start in (("right_hind", 0.72), ("left_hind", 0.92)):
@@ -201,11 +201,6 @@ def tucked(plant: Plant, land: float, leave: float, rolling: tuple[OnBall, ...])
         on_ball=rolling,
         swing=(Via(0.5, 0.04, pitch=12.0),),
     )
-
-
-def at(time: float, one: RigKey) -> RigKey:
-    """Return a key at another time."""
-    return replace(one, at=time)
 
 
 def in_place(

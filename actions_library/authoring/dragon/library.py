@@ -7,13 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from actions_library.authoring.creature import write_creature
 from actions_library.authoring.dragon import gaits, jumps, standing
 from actions_library.authoring.dragon.body import dragon_character
 from actions_library.authoring.dragon.skeleton import dragon_rig
 from actions_library.authoring.rig import Rig
-from actions_library.folder import load_library, write_library
-from actions_library.gestures import with_gestures
-from actions_library.library import Credit, Library
+from actions_library.library import Library
 from smd.cast import IDLE
 from smd.character.clip import Clip
 from smd.recognition.action import Action
@@ -65,12 +64,4 @@ def _tidied(clip: Clip, rig: Rig) -> Clip:
 def write_dragon(folder: Path) -> Library:
     """Make the dragon, its clips and its actions, and write them as a library."""
     rig = dragon_rig()
-    clips = {clip.name: clip for clip in dragon_clips(rig)}
-    return write_library(
-        folder,
-        name="dragon",
-        character=dragon_character(rig.skeleton),
-        clips=clips,
-        actions=with_gestures(DRAGON_ACTIONS, load_library()),
-        credits=dict.fromkeys(clips, Credit("Spatial Motion Doodles", "MIT")),
-    )
+    return write_creature(folder, dragon_character(rig.skeleton), dragon_clips(rig), DRAGON_ACTIONS)

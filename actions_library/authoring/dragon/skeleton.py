@@ -8,7 +8,7 @@ plane.
 from __future__ import annotations
 
 from actions_library.authoring.eyes import Eye
-from actions_library.authoring.legs import BEHIND, RigLeg
+from actions_library.authoring.quadruped import fore_leg, hind_leg
 from actions_library.authoring.rig import Chain, Rig
 from actions_library.authoring.rigging import JointRow, Point, skeleton_of, with_right_side
 
@@ -116,31 +116,6 @@ def dragon_rig() -> Rig:
             *wings,
             *(Chain(f"{side}_eye", (f"{side}_eye",)) for side in sides),
         ),
-        legs=(*(_hind(side) for side in sides), *(_fore(side) for side in sides)),
+        legs=(*(hind_leg(side) for side in sides), *(fore_leg(side) for side in sides)),
         tracks=SHAPES,
-    )
-
-
-def _hind(side: str) -> RigLeg:
-    return RigLeg(
-        f"{side}_hind",
-        f"{side}_hip",
-        f"{side}_knee",
-        f"{side}_hock",
-        f"{side}_hind_toes",
-        on_toes=True,
-    )
-
-
-def _fore(side: str) -> RigLeg:
-    return RigLeg(
-        f"{side}_fore",
-        f"{side}_shoulder",
-        f"{side}_elbow",
-        f"{side}_wrist",
-        f"{side}_fore_toes",
-        blade=f"{side}_shoulder_blade",
-        blade_share=0.45,
-        knee=BEHIND,
-        on_toes=True,
     )

@@ -13,7 +13,7 @@ from actions_library.authoring.gait import standing_plants
 from actions_library.authoring.keys import Place, Turn
 from actions_library.authoring.posing import RATE_HZ
 from actions_library.authoring.rig import Rig
-from actions_library.authoring.rig_keys import Part, RigKey, key
+from actions_library.authoring.rig_keys import Part, RigKey, key, rekeyed
 from actions_library.authoring.rig_posing import make_rig_clip
 from actions_library.authoring.stance import moved_in_one_go, standing_still
 from actions_library.authoring.waves import Wave
@@ -131,7 +131,7 @@ def roar(rig: Rig) -> Clip:
             **wing_pose(0.22, raised=44.0, twisted=-12.0),
         ),
         *blink(2.55, 1.0),
-        _at(end - 0.40, STAND),
+        rekeyed(end - 0.40, STAND),
     ]
     waves = [Wave("tail", "yaw", 3.0, tip=9.0, wavelength=1.2, per_cycle=3.0)]
     return _in_place(rig, "roar", keys, ends=(0.2, 0.75, 2.1, 2.6, end), waves=waves)
@@ -140,7 +140,7 @@ def roar(rig: Rig) -> Clip:
 def shake_head(rig: Rig) -> Clip:
     """No: the head goes to and fro, the neck and the tail against it."""
     end = 2.2
-    keys = [STAND, _at(0.1, STAND)]
+    keys = [STAND, rekeyed(0.1, STAND)]
     for at, yaw in ((0.35, 26.0), (0.62, -30.0), (0.89, 28.0), (1.16, -22.0), (1.43, 8.0)):
         keys.append(
             key(
@@ -156,7 +156,7 @@ def shake_head(rig: Rig) -> Clip:
         key(0.5, left_blink=0.75, right_blink=0.75, **folded(raised=5.0, opened=0.06)),
         key(1.1, brow_angry=0.6, left_blink=0.75, right_blink=0.75),
         key(1.35, left_blink=0.0, right_blink=0.0),
-        _at(end - 0.40, STAND),
+        rekeyed(end - 0.40, STAND),
     ]
     return _in_place(rig, "shake_head", keys, ends=(0.1, 0.35, 1.16, 1.5, end))
 
@@ -181,7 +181,7 @@ def look_around(rig: Rig) -> Clip:
         *blink(0.55, 1.0),
         *blink(1.78, 1.0),
         *blink(2.85, 1.0),
-        _at(end - 0.40, STAND),
+        rekeyed(end - 0.40, STAND),
     ]
     return _in_place(rig, "look_around", keys, ends=(0.15, 0.5, 2.6, 3.2, end))
 
@@ -222,7 +222,7 @@ def tail_swipe(rig: Rig) -> Clip:
         ),
         key(1.35, tail=Turn(yaw=-62.0, lean=2.0), jaw_open=0.3, head=Turn(yaw=32.0, lean=10.0)),
         *blink(1.65, 1.0),
-        _at(end - 0.40, STAND),
+        rekeyed(end - 0.40, STAND),
     ]
     return _in_place(rig, "tail_swipe", keys, ends=(0.15, 0.75, 1.15, 1.5, end))
 
@@ -243,8 +243,8 @@ def bow(rig: Rig) -> Clip:
         **folded(raised=-14.0, opened=0.30),
     )
     none = key(0.3, left_blink=0.0, right_blink=0.0)
-    keys = [STAND, _at(0.15, STAND), none, low, _at(1.35, low), _at(1.75, none)]
-    keys += [_at(end - 0.40, STAND)]
+    keys = [STAND, rekeyed(0.15, STAND), none, low, rekeyed(1.35, low), rekeyed(1.75, none)]
+    keys += [rekeyed(end - 0.40, STAND)]
     return _in_place(rig, "bow", keys, ends=(0.15, 0.5, 1.35, 1.8, end))
 
 
@@ -253,9 +253,9 @@ def sit_down(rig: Rig) -> Clip:
     end = 1.8
     keys = [
         STAND,
-        _at(0.20, STAND),
+        rekeyed(0.20, STAND),
         key(0.50, place=Place(up=-0.024), neck=Turn(lean=12.0), head=Turn(lean=12.0)),
-        _at(1.2, SIT),
+        rekeyed(1.2, SIT),
         *blink(0.75, 1.0),
     ]
     plants = standing_plants(rig)
@@ -271,9 +271,9 @@ def stand_up(rig: Rig) -> Clip:
     end = 1.7
     keys = [
         SIT,
-        _at(0.15, SIT),
+        rekeyed(0.15, SIT),
         key(0.4, head=Turn(lean=14.0), neck=Turn(lean=34.0)),
-        _at(1.1, STAND),
+        rekeyed(1.1, STAND),
     ]
     plants = standing_plants(rig)
     for leg, start in (("right_hind", 0.74), ("left_hind", 0.94)):
@@ -390,10 +390,6 @@ def _under(plant: Plant, land: float, leave: float, rolling: tuple[OnBall, ...])
         on_ball=rolling,
         swing=(Via(0.5, 0.04, pitch=12.0),),
     )
-
-
-def _at(time: float, one: RigKey) -> RigKey:
-    return replace(one, at=time)
 
 
 def _in_place(

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from actions_library.authoring.creature import write_creature
 from actions_library.authoring.moon.clips import MOON_CLIPS
 from actions_library.authoring.moon.face import moon_character
 from actions_library.authoring.moon.skeleton import moon_rig
 from actions_library.authoring.rig import Rig
-from actions_library.folder import load_library, write_library
-from actions_library.gestures import with_gestures
-from actions_library.library import Credit, Library
+from actions_library.library import Library
 from smd.cast import IDLE
 from smd.character.clip import Clip
 from smd.recognition.action import Action
@@ -39,12 +38,4 @@ def moon_clips(rig: Rig) -> tuple[Clip, ...]:
 def write_moon(folder: Path) -> Library:
     """Make the moon, its clips and its actions, and write them as a library."""
     rig = moon_rig()
-    clips = {clip.name: clip for clip in moon_clips(rig)}
-    return write_library(
-        folder,
-        name="moon",
-        character=moon_character(rig.skeleton),
-        clips=clips,
-        actions=with_gestures(MOON_ACTIONS, load_library()),
-        credits=dict.fromkeys(clips, Credit("Spatial Motion Doodles", "MIT")),
-    )
+    return write_creature(folder, moon_character(rig.skeleton), moon_clips(rig), MOON_ACTIONS)
